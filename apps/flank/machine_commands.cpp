@@ -45,8 +45,9 @@ namespace {
 /// All that post reads: the folder with its part and fixtures, what the request names, the machine's file.
 ReadFiles inputs_of(const PostJob& job) {
   ReadFiles files = inputs_of_folder(job.folder);
+  for (const std::string& folder : job.more_folders) files.add(inputs_of_folder(folder));
   for_each_input(job, [&](const FieldInfo& info, const std::string& word) {
-    if (info.key != "folder") files.add(word, "as `" + field_name(info) + "`");
+    if (info.key != "folder" && info.key != "more_folders") files.add(word, "as `" + field_name(info) + "`");
   });
   files.add(machine_file(job.machine), "as `machine`");
   return files;
@@ -67,7 +68,8 @@ void keep_motion(const std::string& path, const std::string& motion) {
 }  // namespace
 
 Subcommand add_post(CLI::App& parser) {
-  CLI::App* app = parser.add_subcommand("post", "Write the NC program with which a machine runs the path of a folder");
+  CLI::App* app = parser.add_subcommand(
+      "post", "Write the NC program with which a machine runs the path of a folder, or those of several");
   auto job = std::make_shared<PostJob>();
   auto output = std::make_shared<std::string>();
   FlagNames names = add_job_options(*app, *job);
@@ -76,20 +78,24 @@ Subcommand add_post(CLI::App& parser) {
       "Example: flank example twisted-blade -o blade.step && flank fit blade.step --face F1 --tolerance 0.1 -o out; "
       "flank post out --machine linuxcnc-xyzac-trt --spindle 8000 --feed 1000 -o blade.ngc && flank verify out --nc "
       "blade.ngc --machine "
-      "linuxcnc-xyzac-trt");
+      "linuxcnc-xyzac-trt\nSeveral operations, each with its own tool: flank post rough finish --machine fanuc-ac "
+      "--material steel --flutes 4 -o part.nc && flank verify rough finish --nc part.nc --machine fanuc-ac");
   const auto run = [job, output](const CommonOptions& common) {
-    require_not_a_result(job->folder, *output);
+    std::vector<std::string> folders{job->folder};
+    folders.insert(folders.end(), job->more_folders.begin(), job->more_folders.end());
+    for (const std::string& folder : folders) require_not_a_result(folder, *output);
     require_no_result_there(*output);
     const ReadFiles inputs = inputs_of(*job);
     inputs.require_not_written(*output);
     const Unwritten unwritten(inputs);
-    require_place_of_motion(job->folder);
+    for (const std::string& folder : folders) require_place_of_motion(folder);
     const PostOutcome outcome = run_post(*job);
     // A program that cuts what it should not is not left lying about for somebody to run.
     const bool written = outcome.acceptance.pass() || job->force;
     if (written) {
       write_file(*output, outcome.program);
-      keep_motion(job->folder, outcome.motion);
+      for (const PostOperation& operation : outcome.operations)
+        if (operation.copy == 1) keep_motion(operation.folder, operation.motion);
     }
     if (common.json)
       fmt::print("{}", post_json(outcome));

@@ -34,6 +34,7 @@
 #include "help.h"
 #include "messages.h"
 #include "redesign_command.h"
+#include "setup_command.h"
 #include "wheel_command.h"
 
 namespace {
@@ -138,7 +139,7 @@ std::vector<flank::cli::Subcommand> add_commands(CLI::App& parser, flank::cli::C
       flank::cli::add_studio(parser),   flank::cli::add_tool(parser),    flank::cli::add_machine(parser),
       flank::cli::add_design(parser),   flank::cli::add_sweep(parser),   flank::cli::add_bound(parser),
       flank::cli::add_redesign(parser), flank::cli::add_correct(parser), flank::cli::add_example(parser),
-      flank::cli::add_fields(parser)};
+      flank::cli::add_fields(parser),   flank::cli::add_setup(parser)};
   for (const flank::cli::Subcommand& command : commands) {
     command.app->group(group_of(command.app->get_name()));
     add_common(*command.app, common);

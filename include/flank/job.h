@@ -50,10 +50,13 @@ struct RadiusRequest {
 struct ObstacleRequest {
   std::optional<std::string> check_faces;   ///< "F88,F12": only these; none: every face that is not machined
   std::optional<std::string> ignore_faces;  ///< "F5": not these
-  std::optional<double> shank_radius_mm;    ///< none: that of the flank's upper end
-  std::optional<double> shank_length_mm;    ///< a cylinder on the upper end of the flank
-  std::optional<std::string> holder;        ///< "z:r,z:r,...", or a file of such pairs
-  std::vector<std::string> fixtures;        ///< part files
+  /// "given": what the next two and `tool` give, as long as nothing else is asked for; "auto": a cylinder as thick as the flank ends
+  /// (a standard diameter where one is nearly that), long enough to reach out of the part; "none".
+  std::string shank = "given";
+  std::optional<double> shank_radius_mm;  ///< none: that of the flank's upper end
+  std::optional<double> shank_length_mm;  ///< a cylinder on the upper end of the flank
+  std::optional<std::string> holder;      ///< "z:r,z:r,...", or a file of such pairs
+  std::vector<std::string> fixtures;      ///< part files
   std::optional<std::string>
       fixture_unit;                    ///< of meshes among them, "mm", "cm", "m" or "in"; none: as that of the part
   std::optional<double> clearance_mm;  ///< least distance of shank and holder from the part, of all from fixtures
@@ -83,6 +86,7 @@ struct FitJob {
   std::optional<double> tolerance_mm;  ///< none: a thousandth of the diagonal of the faces, rounded down to 1, 2 or 5
   std::optional<std::string> start;    ///< "x,y,z,x,y,z": tip and holder end of a first axis, mm
   std::optional<std::string> guide;    ///< file of several such lines
+  std::string cut = "climb";           ///< or "conventional"; the spindle turns clockwise seen from the holder
   int strips = 0;                      ///< motions side by side; 0: as many as the tolerance needs
   bool avoid = true;              ///< keep clear of the other faces already in planning; they are judged either way
   std::string effort = "normal";  ///< or "quick", "thorough": how much is tried
@@ -110,6 +114,7 @@ struct CoverJob {
   ObstacleRequest obstacles;
   JudgeRequest judge;
   std::optional<double> tolerance_mm;  ///< none: a thousandth of the diagonal of the faces, rounded down to 1, 2 or 5
+  std::string cut = "climb";           ///< as in FitJob
   std::string strategy = "grow";       ///< or "curves"
   std::optional<std::uint64_t> seed;   ///< of the clustering; strategy "curves" only
   std::string seeds = "grid";          ///< or "shape": where `grow` begins its lines
@@ -175,7 +180,8 @@ struct TrochoidJob {
 
 /// Judge again what fit, cover or trochoid left in a folder. What is given takes the place of the job's own.
 struct VerifyJob {
-  std::string folder;  ///< may be empty if a program, its part and its tool are given
+  std::string folder;                     ///< may be empty if a program, its part and its tool are given
+  std::vector<std::string> more_folders;  ///< of a program of several operations: those after the first, in their order
   NcRequest nc;
   std::optional<std::string> part;  ///< file
   std::optional<double> tolerance_mm, sample_mm, reach_radius_mm, stock_cell_mm;
@@ -184,9 +190,20 @@ struct VerifyJob {
   bool operator==(const VerifyJob&) const = default;
 };
 
-/// Write the program with which a machine runs the path of a folder.
+/// Write the program with which a machine runs the path of a folder, or the paths of several, one operation after the other.
 struct PostJob {
   std::string folder;
+  std::vector<std::string>
+      more_folders;  ///< of the operations after the first, in their order: other tools, the same part and set-up
+  /// "2:name=finish,tool=7,length=120,spindle=12000,feed=800,flutes=3": what holds for one operation (by its number) only.
+  std::vector<std::string> operations;
+  int copies = 1;  ///< each operation is run so many times, turned by 360 degrees / copies about `copy_axis`
+  std::optional<std::string>
+      copy_axis;                ///< "x,y,z,x,y,z": a point and a direction, in the part's frame; none: its Z axis
+  std::string coolant = "off";  ///< or "flood", "mist"
+  /// How the part is clamped, where the set-up is searched: "any" way up; "bottom", its Z axis up; "bore", `copy_axis` up, and on the
+  /// axis of the table.
+  std::string clamp = "any";
   std::string machine;                ///< name of a machine that comes with the program, or a file
   std::optional<std::string> part;    ///< file; none: the job's
   std::optional<std::string> setup;   ///< "x,y,z,a,b,c": where the part sits; none: searched

@@ -215,6 +215,10 @@ struct Verification {
   VerifyReport report;
   Acceptance acceptance;
   std::vector<std::string> notes;
+  /// Of a program of several operations: what each of them is, and its own verdict. `report` is empty then, and `acceptance` has all
+  /// of their reasons.
+  std::vector<std::string> operation_names = {};
+  std::vector<Verification> operations = {};
 };
 
 /// `flank verify`: reads job.json, tool.json and path.json of a folder, judges, and writes verify.json and view.json. With
@@ -232,6 +236,17 @@ struct JointRange {
   double low = 0.0, high = 0.0, speed = 0.0, acceleration = 0.0;
 };
 
+/// One operation of a program: a tool and its path.
+struct PostOperation {
+  std::string folder, name;
+  int tool_number = 1;
+  std::string tool;          ///< its name
+  int copy = 1, copies = 1;  ///< which of the turned copies
+  double spindle_rpm = 0.0;  ///< 0: it stands
+  double minutes = 0.0, cutting_minutes = 0.0;
+  std::string motion = {};  ///< motion.json: what the joints do over time, for the report (docs/schema/motion.md)
+};
+
 /// A program and what it does.
 struct PostOutcome {
   std::string program;           ///< the text; empty where it does not pass and PostJob::force does not ask for it
@@ -247,7 +262,9 @@ struct PostOutcome {
   std::vector<JointRange> joints;
   Acceptance acceptance;  ///< collisions of links and of the machine, what the program's digits add
   std::vector<std::string> notes;
-  std::string motion;  ///< motion.json: what the joints do over time, for the report (docs/schema/motion.md)
+  std::string motion;  ///< motion.json of the first operation
+  std::vector<PostOperation>
+      operations;  ///< in the order of the program; the figures above are of all of them together
 };
 
 /// `flank post`: reads job.json, tool.json and path.json of a folder. Throws UsageError and InputError: also where the

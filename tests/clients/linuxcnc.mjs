@@ -29,12 +29,15 @@ function writeSwitches(folder) {
     REMAP: Object.keys(SWITCHES).map((word) => `${word} modalgroup=10 ngc=${word.toLowerCase()}`) };
 }
 
-/** What the interpreter makes of a program: exit status, moves [kind, x, y, z, a, b, c], message. */
+/** A table of tools { number, length }. */
+const tableOf = (tools) => tools.map(({ number, length }) => `T${number} P${number} D10 Z${length}\n`).join('');
+
+/** What the interpreter makes of a program, with one tool or a list of them: exit status, moves [kind, x, y, z, a, b, c], message. */
 export function interpret(folder, text, tool) {
   mkdirSync(folder, { recursive: true });
   writeFileSync(join(folder, 'sim.ini'), section('RS274NGC', writeSwitches(folder)) +
     section('TRAJ', { COORDINATES: 'XYZABC', LINEAR_UNITS: 'mm', ANGULAR_UNITS: 'degree' }) + section('EMCIO', { TOOL_TABLE: 'sim.tbl' }));
-  writeFileSync(join(folder, 'sim.tbl'), `T${tool.number} P1 D10 Z${tool.length}\n`);
+  writeFileSync(join(folder, 'sim.tbl'), tableOf([tool].flat()));
   writeFileSync(join(folder, 'program.ngc'), text);
   const { status, stdout, stderr } = spawnSync('rs274', ['-i', 'sim.ini', '-g', 'program.ngc'], { encoding: 'utf8', maxBuffer: 2 ** 30, cwd: folder });
   const moves = [...stdout.matchAll(/STRAIGHT_(FEED|TRAVERSE)\(([^)]*)\)/g)].map((m) => [m[1], ...m[2].split(',').map(Number)]);
@@ -107,7 +110,7 @@ function hal({ kinematics: kins, joints, pins }) {
 
 /**
  * Runs a program to its end in a simulated machine: { outcome, messages, line, joints }. It takes as long as the machine would.
- * machine: { kinematics, pins, joints: [{ name, kind, travel, speed, acceleration }], tool: { number, length }, always: it moves by its
+ * machine: { kinematics, pins, joints: [{ name, kind, travel, speed, acceleration }], tool: { number, length } or a list of them, always: it moves by its
  * kinematics without a word }; offset: where G54 is.
  * LinuxCNC does not run as root; then it runs as nobody.
  */
@@ -116,7 +119,7 @@ export function simulate(folder, text, machine, offset = [0, 0, 0], limit = 250)
   const file = (name) => join(folder, name);
   writeFileSync(file('sim.ini'), configuration(folder, machine));
   writeFileSync(file('sim.hal'), hal(machine));
-  writeFileSync(file('sim.tbl'), `T${machine.tool.number} P1 D10 Z${machine.tool.length}\n`);
+  writeFileSync(file('sim.tbl'), tableOf([machine.tool].flat()));
   writeFileSync(file('program.ngc'), text);
   copyFileSync(join(HERE, 'linuxcnc_ui.py'), file('linuxcnc_ui.py'));
   chmodSync(file('linuxcnc_ui.py'), 0o755);

@@ -172,6 +172,64 @@ function real(name, file, ...options) {
 real('the blade of a compressor', 'r37_blade.step', '--face', 'F1', '--tolerance', '0.1');
 real('a blade of an impeller among its neighbours', 'kj66_impeller.step', '--face', 'F1', '--tolerance', '0.01');
 
+/** What a program says of each of its operations, with the text that begins it. */
+function operations(text) {
+  const begins = [...text.matchAll(/\(OPERATION (\d+) OF (\d+)(?: COPY (\d+) OF (\d+))?/g)];
+  return begins.map(({ index, ...m }, k) => {
+    const own = text.slice(index, begins[k + 1]?.index);
+    return { text: own, ...header(own), copy: Number(m[3] ?? 1), copies: Number(m[4] ?? 1) };
+  });
+}
+
+/** The stretches of a run between two places where the tool is out of the way, the last `count` of them. */
+function stretches(rows, count) {
+  const top = rows.reduce((most, r) => Math.max(most, r[2]), -Infinity), found = [];
+  rows.forEach((row, i) => {
+    if (row[2] > top - 1e-6) return;
+    if (i === 0 || rows[i - 1][2] > top - 1e-6) found.push([]);
+    found.at(-1).push(row);
+  });
+  return found.slice(-count);
+}
+
+/** A pose of the part turned by an angle about a line along Z through (x, y). */
+function turned([px, py, pz, ax, ay, az], [x, y], angle) {
+  const c = Math.cos(angle), s = Math.sin(angle), turn = (u, v) => [c * u - s * v, s * u + c * v];
+  const [qx, qy] = turn(px - x, py - y), [bx, by] = turn(ax, ay);
+  return [qx + x, qy + y, pz, bx, by, az];
+}
+
+const pocket = join(data, 'peer/draft_pocket_r6.step'), MIDDLE = [40, 30];
+test('two tools in one program, each at both turned halves of a pocket', { skip: existsSync(pocket) ? false : `no ${pocket}` }, () => {
+  const folders = [5, 4].map((radius) => join(root, `half-${radius}`)), file = join(root, 'two-tools.ngc'), name = 'linuxcnc-xyzac-trt';
+  for (const [k, radius] of [5, 4].entries())
+    must('fit', pocket, '--face', 'F7,F8,F9,F10', '--tool', `cylinder:radius=${radius}`, '--tolerance', '0.005', '-o', folders[k], '--quiet');
+  must('post', ...folders, '--copies', '2', `--copy-axis=${MIDDLE},0,0,0,1`, '--machine', name, '--spindle', '8000', '--feed', '6000',
+    '--operation', '1:name=first', '--operation', '2:name=second,length=85', '-o', file, '--quiet');
+  must('verify', ...folders, '--nc', file, '--machine', name, '--quiet');
+  const text = readFileSync(file, 'utf8'), each = operations(text), [kinematics, pins] = XYZAC;
+  assert.deepEqual(each.map((o) => [o.number, o.copy, o.copies]), [[1, 1, 2], [1, 2, 2], [2, 1, 2], [2, 2, 2]]);
+  const tool = [each[0], each[2]].map(({ number, length }) => ({ number, length })), machine = machineOf(name, kinematics, pins, tool);
+  expectSameMoves(text, tool);
+  const run = simulate(fresh(), text, machine, each[0].setup.slice(0, 3));
+  assert.equal(run.outcome, 'end', `${run.line}: ${run.messages.join('\n')}`);
+  const jump = fastest(run.joints, machine.joints);
+  assert.ok(jump.share <= MOST_OF_SPEED, `joint ${jump.joint} goes ${jump.share.toFixed(2)} times as far in a millisecond as it can, sample ${jump.row}`);
+  stretches(moving(run.joints), each.length).forEach((rows, k) => {
+    const { text: own, setup, number, length, offset, copy, copies } = each[k];
+    const done = poses(rows, forwardOf({ ...machine, tool: { number, length } }));
+    const words = done.map((p, i) => [...p.slice(0, 3).map((v, axis) => v - setup[axis]), ...rows[i].slice(3)]);
+    const [first, last] = cutting(words, own, machine.joints.map((j) => j.name).join(''));
+    // Turned back to where the folder has its path.
+    const back = (p) => turned(toPart(setup, offset, p), MIDDLE, (-2 * Math.PI * (copy - 1)) / copies);
+    const [planned, real] = judged(folders[k >> 1], `operation-${k}`, done.slice(first, last + 1).map(back));
+    const extra = real.overcut_mm - planned.overcut_mm;
+    console.log(`# operation ${k + 1}, tool ${number}, copy ${copy}: ${rows.length} samples, ${(1000 * extra).toFixed(3)} um more than planned, coverage ${planned.coverage} and ${real.coverage}`);
+    assert.ok(extra <= EXTRA_OVERCUT, `operation ${k + 1}: ${extra} mm deeper than planned`);
+    assert.ok(real.coverage >= planned.coverage - 0.001, `operation ${k + 1}: coverage ${real.coverage}, planned ${planned.coverage}`);
+  });
+});
+
 // Four minutes of cutting, in real time.
 test('the cycles of a cavity', { skip: process.env.FLANK_LONG ? false : 'set FLANK_LONG=1 for it' }, () => {
   const part = join(root, 'cavity'), folder = join(root, 'cycles');

@@ -37,8 +37,8 @@ void add_members(const RadiusRequest& request, Addresses& all) {
   add(all, min, max, slope, slenderness, profile, neck, wheel);
 }
 void add_members(const ObstacleRequest& request, Addresses& all) {
-  const auto& [check, ignore, shank_radius, shank_length, holder, fixtures, unit, clearance] = request;
-  add(all, check, ignore, shank_radius, shank_length, holder, fixtures, unit, clearance);
+  const auto& [check, ignore, shank, shank_radius, shank_length, holder, fixtures, unit, clearance] = request;
+  add(all, check, ignore, shank, shank_radius, shank_length, holder, fixtures, unit, clearance);
 }
 void add_members(const JudgeRequest& request, Addresses& all) {
   const auto& [coverage, whole, sample, reach, turn] = request;  // the last of fit and cover alone
@@ -49,19 +49,20 @@ void add_members(const ChoiceRequest& request, Addresses& all) {
   add(all, catalogue, finalists, feed, rapid);
 }
 Addresses members(const FitJob& job) {
-  const auto& [part, tool, radius, obstacles, judge, tolerance, start, guide, strips, avoid, effort, curve, bend] = job;
+  const auto& [part, tool, radius, obstacles, judge, tolerance, start, guide, cut, strips, avoid, effort, curve, bend] =
+      job;
   Addresses all;
   add_members(part, all), add_members(tool, all), add_members(radius, all), add_members(obstacles, all);
   add_members(judge, all);
-  add(all, tolerance, start, guide, strips, avoid, effort, curve, bend, judge.most_turn_deg);
+  add(all, tolerance, start, guide, cut, strips, avoid, effort, curve, bend, judge.most_turn_deg);
   return all;
 }
 Addresses members(const CoverJob& job) {
-  const auto& [part, tool, choice, obstacles, judge, tolerance, strategy, seed, seeds, most_strips, price] = job;
+  const auto& [part, tool, choice, obstacles, judge, tolerance, cut, strategy, seed, seeds, most_strips, price] = job;
   Addresses all;
   add_members(part, all), add_members(tool, all), add_members(choice, all), add_members(obstacles, all);
   add_members(judge, all);
-  add(all, tolerance, strategy, seed, seeds, most_strips, price, judge.most_turn_deg);
+  add(all, tolerance, cut, strategy, seed, seeds, most_strips, price, judge.most_turn_deg);
   return all;
 }
 void add_members(const NcRequest& request, Addresses& all) {
@@ -79,11 +80,11 @@ Addresses members(const TrochoidJob& job) {
   return all;
 }
 Addresses members(const PostJob& job) {
-  const auto& [folder, machine, part, setup, feed, speed, most, deviation, tool_length, clearance, lift, order, spindle,
-               dry, force, material, flutes] = job;
+  const auto& [folder, more, operations, copies, axis, coolant, clamp, machine, part, setup, feed, speed, most,
+               deviation, tool_length, clearance, lift, order, spindle, dry, force, material, flutes] = job;
   Addresses all;
-  add(all, folder, machine, part, setup, feed, speed, most, deviation, tool_length, clearance, lift, order, spindle,
-      dry, force, material, flutes);
+  add(all, folder, more, operations, copies, axis, coolant, clamp, machine, part, setup, feed, speed, most, deviation,
+      tool_length, clearance, lift, order, spindle, dry, force, material, flutes);
   return all;
 }
 Addresses members(const DesignJob& job) {
@@ -115,11 +116,11 @@ Addresses members(const RedesignJob& job) {
   return all;
 }
 Addresses members(const VerifyJob& job) {
-  const auto& [folder, nc, part, tolerance, sample, reach, cell, side, obstacles] = job;
+  const auto& [folder, more, nc, part, tolerance, sample, reach, cell, side, obstacles] = job;
   Addresses all;
   add_members(nc, all);
   add_members(obstacles, all);
-  add(all, folder, part, tolerance, sample, reach, cell, side);
+  add(all, folder, more, part, tolerance, sample, reach, cell, side);
   return all;
 }
 

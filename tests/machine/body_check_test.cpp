@@ -131,14 +131,14 @@ TEST(BodyCheck, TheSearchForASetUpKeepsOffTheTable) {
   const Kinematics kinematics(machine, machine.tool_length);
   const Path path = paths::twisted(30);
   const std::vector<Pose>& poses = path.strips[0].poses;
-  const FoundSetup low = search_setup(machine, kinematics, poses);
+  const FoundSetup low = search_setup(machine, kinematics, {.poses = poses});
   ASSERT_TRUE(low.setup);
   const double height = low.setup->translation.z();
   machine.bodies[0].to.z() = height + 5.0;
   std::vector<SolidBody> solids = machine_solids(machine);
   solids.emplace_back("the tool", SolidKind::kTool, kJointCount,
                       std::vector{ConvexShape::frustum({0, 0, -150}, 10.0, {0, 0, 0}, 10.0)});
-  const FoundSetup found = search_setup(machine, kinematics, poses, solids);
+  const FoundSetup found = search_setup(machine, kinematics, {.poses = poses}, solids);
   ASSERT_TRUE(found.setup) << found.reason;
   std::vector<MachinePose> placed;
   for (const Pose& p : poses) placed.push_back({found.setup->to_work(p), !placed.empty()});

@@ -291,7 +291,7 @@ TEST(SetupSearch, FindsOneWhereTheOriginIsOutOfReach) {
     p.tip = Vec3(700, 0, 0) - p.tip;
     p.axis = -p.axis;
   }
-  const FoundSetup found = search_setup(machine, kinematics, poses);
+  const FoundSetup found = search_setup(machine, kinematics, {.poses = poses});
   ASSERT_TRUE(found.setup) << found.reason;
   EXPECT_GT(found.least_sine, 0.08);
   std::vector<MachinePose> placed;
@@ -304,7 +304,7 @@ TEST(SetupSearch, SaysWhyNothingFits) {
   Machine machine = read_machine("linuxcnc-xyzac-trt");
   for (const std::size_t k : machine.linear) machine.joints[k].low = -1.0, machine.joints[k].high = 1.0;
   const Kinematics kinematics(machine, machine.tool_length);
-  const FoundSetup found = search_setup(machine, kinematics, paths::twisted(50).strips[0].poses);
+  const FoundSetup found = search_setup(machine, kinematics, {.poses = paths::twisted(50).strips[0].poses});
   EXPECT_FALSE(found.setup);
   EXPECT_NE(found.reason.find("its travel is"), std::string::npos) << found.reason;
 }

@@ -16,6 +16,38 @@ std::string internal::minutes_text(double minutes) {
   return seconds < 60.0 ? fmt::format("{:.1f} s", seconds) : fmt::format("{:.2f} min", minutes);
 }
 
+namespace {
+
+/// A line for each: its tool, and how long it takes.
+std::string operations_text(const std::vector<PostOperation>& operations) {
+  std::string text = fmt::format("{:<9} {:<24} {:>6} {:>9} {:>10} {:>10}\n", "operation", "name", "tool", "spindle",
+                                 "time", "cutting");
+  int number = 0;
+  for (const PostOperation& one : operations)
+    text += fmt::format("{:<9} {:<24} {:>6} {:>9g} {:>10} {:>10}\n", ++number,
+                        one.copies > 1 ? fmt::format("{}, copy {}", one.name, one.copy) : one.name,
+                        fmt::format("T{}", one.tool_number), one.spindle_rpm, minutes_text(one.minutes),
+                        minutes_text(one.cutting_minutes));
+  return text;
+}
+
+nlohmann::ordered_json operations_json(const std::vector<PostOperation>& operations) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const PostOperation& one : operations)
+    list.push_back({{"name", one.name},
+                    {"folder", one.folder},
+                    {"tool_number", one.tool_number},
+                    {"tool", one.tool},
+                    {"copy", one.copy},
+                    {"copies", one.copies},
+                    {"spindle_rpm", one.spindle_rpm},
+                    {"minutes", one.minutes},
+                    {"cutting_minutes", one.cutting_minutes}});
+  return list;
+}
+
+}  // namespace
+
 std::string post_text(const PostOutcome& o) {
   // What the machine is and where the part sits come first: with the part in another place the program is wrong.
   std::string text =
@@ -29,6 +61,7 @@ std::string post_text(const PostOutcome& o) {
   for (const JointRange& j : o.joints)
     text += fmt::format("{:<2}{:<4} {:>11.3f} {:>11.3f} {:>11.3f} {:>14.2f}\n", j.joint, j.unit, j.low, j.high, j.speed,
                         j.acceleration);
+  if (o.operations.size() > 1) text += operations_text(o.operations);
   text += fmt::format("closest to the pole {:.2f} degrees; time {}, of which cutting {}\n", o.least_tilt_deg,
                       minutes_text(o.minutes), minutes_text(o.cutting_minutes));
   for (const std::string& note : o.notes) text += "note: " + note + "\n";
@@ -63,6 +96,7 @@ std::string post_json(const PostOutcome& o) {
                               {"high", j.high},
                               {"speed", j.speed},
                               {"acceleration", j.acceleration}});
+  json["operations"] = operations_json(o.operations);
   json["reasons"] = nlohmann::ordered_json::array();
   for (const Shortfall& r : o.acceptance.reasons) json["reasons"].push_back({{"figure", r.figure}, {"text", r.text}});
   json["cautions"] = nlohmann::ordered_json::array();

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "flank/artefact/acceptance.h"
 #include "flank/artefact/cavity/stock_json.h"
 #include "flank/artefact/verify_json.h"
+#include "flank/io/text/json_dump.h"
 #include "flank/run.h"
 #include "flank/setup/machined_side.h"
 
@@ -72,7 +74,41 @@ std::string clearance_text(const ClearanceReport& report) {
 namespace flank {
 using namespace internal;
 
+namespace {
+
+/// A table for each operation, then the verdict on all of them.
+std::string operations_text(const Verification& outcome) {
+  std::string text;
+  for (std::size_t k = 0; k < outcome.operations.size(); ++k)
+    text += outcome.operation_names[k] + "\n" + verify_text(outcome.operations[k]) + "\n";
+  text += fmt::format("{} operations: {}\n", outcome.operations.size(),
+                      outcome.acceptance.pass() ? "meet the request" : "do NOT meet the request");
+  return text + reason_lines(outcome.acceptance);
+}
+
+/// Each operation as verify.json has a path.
+std::string operations_json(const Verification& outcome) {
+  using Json = nlohmann::ordered_json;
+  const auto texts_of = [](const std::vector<Shortfall>& shortfalls) {
+    Json list = Json::array();
+    for (const Shortfall& one : shortfalls) list.push_back({{"figure", one.figure}, {"text", one.text}});
+    return list;
+  };
+  Json json = {{"schema", "openflank/verify-operations/1"},
+               {"pass", outcome.acceptance.pass()},
+               {"reasons", texts_of(outcome.acceptance.reasons)},
+               {"cautions", texts_of(outcome.acceptance.cautions)},
+               {"operations", Json::array()}};
+  for (std::size_t k = 0; k < outcome.operations.size(); ++k)
+    json["operations"].push_back(
+        {{"name", outcome.operation_names[k]}, {"verify", Json::parse(verify_json(outcome.operations[k]))}});
+  return dumped(json, 2);
+}
+
+}  // namespace
+
 std::string verify_text(const Verification& outcome) {
+  if (!outcome.operations.empty()) return operations_text(outcome);
   const VerifyReport& v = outcome.report;
   std::string text = fmt::format("{:<8} {:>8} {:>11} {:>9} {:>9} {:>11} {:>11} {:>11} {:>11}\n", "face", "role",
                                  "area mm2", "finished", "at least", "gouge mm", "at most mm", "excess mm", "rms mm");
@@ -100,6 +136,9 @@ std::string verify_text(const Verification& outcome) {
   return text;
 }
 
-std::string verify_json(const Verification& outcome) { return verify_to_json(outcome.report, outcome.acceptance); }
+std::string verify_json(const Verification& outcome) {
+  if (!outcome.operations.empty()) return operations_json(outcome);
+  return verify_to_json(outcome.report, outcome.acceptance);
+}
 
 }  // namespace flank

@@ -90,6 +90,10 @@ inline constexpr Accepted kEngagement{"expected an angle above 5 and up to 180 d
                                       [](double x) { return x > 5.0 && x <= 180.0; }};
 inline constexpr Accepted kCut{"must be climb or conventional", nullptr,
                                [](std::string_view x) { return x == "climb" || x == "conventional"; }};
+inline constexpr Accepted kShank{"must be given, auto or none", nullptr,
+                                 [](std::string_view x) { return x == "given" || x == "auto" || x == "none"; }};
+inline constexpr Accepted kClamp{"must be any, bottom or bore", nullptr,
+                                 [](std::string_view x) { return x == "any" || x == "bottom" || x == "bore"; }};
 inline constexpr Accepted kLayers{"expected auto or a number from 1 to 12",
                                   [](double x) { return x >= 0.0 && x <= 12.0; }};
 inline constexpr Accepted kCycles{"must be volume, plain or paper", nullptr,
@@ -99,6 +103,9 @@ inline constexpr Accepted kEntry{"must be auto, open, ramp or plunge", nullptr, 
                                  }};
 inline constexpr Accepted kRampAngle{"expected an angle of at least 0.1 and at most 45 degrees",
                                      [](double x) { return x >= 0.1 && x <= 45.0; }};
+inline constexpr Accepted kCopies{"expected a number from 1 to 999", [](double x) { return x >= 1.0 && x <= 999.0; }};
+inline constexpr Accepted kCoolant{"must be off, flood or mist", nullptr,
+                                   [](std::string_view x) { return x == "off" || x == "flood" || x == "mist"; }};
 inline constexpr Accepted kSeeds{"must be grid or shape", nullptr,
                                  [](std::string_view x) { return x == "grid" || x == "shape"; }};
 
@@ -141,6 +148,13 @@ void visit_obstacles(Request& obstacles, Visitor& visit) {
   visit(FieldInfo{"ignore_faces", "", kFaces,
                   "Faces that the tool may cut into; they are not checked. S2-S5 names all faces of solids 2 to 5"},
         obstacles.ignore_faces);
+  visit(
+      FieldInfo{
+          "shank", "", kAbove,
+          "auto: a shank as thick as the flank's upper end, or the standard diameter just below it, long enough to "
+          "reach out of the part; none: no shank; given: that of --shank-length or of the tool",
+          kShank},
+      obstacles.shank);
   visit(FieldInfo{"shank_length", "mm", kAbove, "Length of a cylindrical shank above the flank", kLength},
         obstacles.shank_length_mm);
   visit(FieldInfo{"shank_radius", "mm", kAbove, "Shank radius. Default: the radius of the flank's upper end", kLength},
@@ -174,6 +188,9 @@ inline constexpr std::string_view kBendHelp =
 inline constexpr std::string_view kToleranceHelp =
     "Allowed deviation of the machined face, both ways. Default: a thousandth of the diagonal of the machined faces, "
     "rounded down to 1, 2 or 5 times a power of ten, from 0.005 to 0.5 mm";
+
+inline constexpr std::string_view kCutHelp =
+    "climb or conventional milling, in every pass; the spindle turns clockwise seen from the holder";
 
 inline constexpr std::string_view kTurnHelp =
     "Largest turn of the motion within 1 % of the face's diagonal, degrees. A sharper turn is a kink and does not meet "
@@ -258,6 +275,7 @@ void visit_fields(Job& job, Visitor&& visit) {
         job.guide);
   visit_radius(job.radius, visit);
   visit(FieldInfo{"stiffness_curve", "", "Stiffness", kCurveHelp, kAny, Spelling::kOnOff}, job.stiffness_curve);
+  visit(FieldInfo{"cut", "", "Motion", kCutHelp, kCut}, job.cut);
   visit(FieldInfo{"min_bend_radius", "mm", "Motion", kBendHelp, kRadius}, job.min_bend_radius_mm);
   visit(FieldInfo{"turn_max", "", "Motion", kTurnHelp, kTurn}, job.judge.most_turn_deg);
   visit_judge(job.judge, visit);
@@ -314,6 +332,7 @@ void visit_fields(Job& job, Visitor&& visit) {
         job.most_strips);
   visit(FieldInfo{"strip_price", "", "", "Share of the face that another pass must add. Default: 0.005", kPrice},
         job.strip_price);
+  visit(FieldInfo{"cut", "", "Motion", kCutHelp, kCut}, job.cut);
   visit(FieldInfo{"turn_max", "", "Motion", kTurnHelp, kTurn}, job.judge.most_turn_deg);
   visit_judge(job.judge, visit);
   visit_choice(job.choice, visit);
@@ -352,6 +371,31 @@ void visit_nc(Request& nc, Visitor& visit) {
         nc.follow);
 }
 
+/// Of a program of several operations.
+template <class Visitor, Is<PostJob> Job>
+void visit_operations(Job& job, Visitor& visit) {
+  using namespace accepted;
+  constexpr std::string_view kGroup = "Operations";
+  visit(FieldInfo{"operations", "", kGroup,
+                  "What holds for one operation alone, NUMBER:KEY=VALUE,...: name, tool (number), length (mm), spindle "
+                  "(1/min), feed (mm/min), flutes; as 2:name=finish,tool=7. May be given several times",
+                  kAny, Spelling::kPlain, "--operation"},
+        job.operations);
+  visit(
+      FieldInfo{"copies", "", kGroup,
+                "Run each operation so many times, turned by 360 degrees / copies about --copy-axis. The part must be "
+                "the same when it is turned",
+                kCopies},
+      job.copies);
+  visit(
+      FieldInfo{"copy_axis", "", kGroup,
+                "Axis of the copies in the part's frame x,y,z,x,y,z: a point (mm) and a direction. Default: its Z axis",
+                kAny},
+      job.copy_axis);
+  visit(FieldInfo{"coolant", "", "", "Coolant while the tool cuts: off, flood (M8) or mist (M7)", kCoolant},
+        job.coolant);
+}
+
 template <class Visitor, Is<PostJob> Job>
 void visit_fields(Job& job, Visitor&& visit) {
   using namespace accepted;
@@ -359,6 +403,10 @@ void visit_fields(Job& job, Visitor&& visit) {
   visit(FieldInfo{"folder", "", "", "A folder written by flank fit, cover or trochoid", kAny, Spelling::kFile, "DIR",
                   true},
         job.folder);
+  visit(FieldInfo{"more_folders", "", "",
+                  "More folders of the same part: the program has an operation for each, with its own tool", kAny,
+                  Spelling::kFile, "MORE"},
+        job.more_folders);
   visit(FieldInfo{"machine", "", "", kMachineHelp, kAny, Spelling::kFileOrText, "", true}, job.machine);
   visit(FieldInfo{"part", "", "", "Another part than the one named in job.json", kAny, Spelling::kFile}, job.part);
   visit(FieldInfo{"setup", "", "",
@@ -370,6 +418,13 @@ void visit_fields(Job& job, Visitor&& visit) {
                   "Feed of the contact along the passes; required, except for a dry run (1000) and --speed optimal",
                   kRate},
         job.feed_mm_min);
+  visit(
+      FieldInfo{
+          "clamp", "", "",
+          "How the part is clamped, for a set-up that is found: any way up; bottom, its Z axis up; bore, --copy-axis "
+          "(default: its Z axis) up and on the axis of the table",
+          kClamp},
+      job.clamp);
   visit(FieldInfo{"speed", "", "",
                   "feed: at --feed as far as the axes can, in a cavity adapted to the engagement so that the thickest "
                   "chip stays the same; constant: at --feed; optimal: as fast as the axes can",
@@ -393,6 +448,7 @@ void visit_fields(Job& job, Visitor&& visit) {
         job.material);
   visit(FieldInfo{"flutes", "", "", "Number of the tool's cutting edges, for the feed of --material", kToolNumber},
         job.flutes);
+  visit_operations(job, visit);
   visit(FieldInfo{"dry", "", "", "Dry run: the spindle stands still, and the program's header says so", kAny,
                   Spelling::kFlag},
         job.dry);
@@ -480,6 +536,9 @@ void visit_fields(Job& job, Visitor&& visit) {
   visit(FieldInfo{"folder", "", "", "A folder written by flank fit, cover or trochoid; not needed with --nc", kAny,
                   Spelling::kFile, "DIR"},
         job.folder);
+  visit(FieldInfo{"more_folders", "", "", "The folders of the program's other operations, in their order", kAny,
+                  Spelling::kFile, "MORE"},
+        job.more_folders);
   visit_nc(job.nc, visit);
   visit(
       FieldInfo{"part", "", "", "Check against this part instead of the one named in job.json", kAny, Spelling::kFile},

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "flank/error.h"
+
 namespace flank::internal {
 namespace {
 
@@ -13,11 +15,19 @@ constexpr double kEnoughSine = 0.5;
 /// A joint that comes as near to the end of its travel as this is not worth less: mm, and radians.
 constexpr double kEnoughRoomMm = 50.0, kEnoughRoomRad = 0.35;
 
+/// A rotary joint that turns by less while the tool cuts stands still, radians.
+constexpr double kStill = 1e-4;
+/// What a joint that stands still is worth: as much as being away from the singular direction; and what a turn of the others costs, up
+/// to so many turns.
+constexpr double kStillWorth = 2.0, kTurnPrice = 0.2, kMostTurns = 4.0;
+
 /// Evenly, with both ends: a strip's ends reach farthest.
-std::vector<Pose> thinned(const std::vector<Pose>& poses) {
-  if (poses.size() <= kMostPoses) return poses;
-  std::vector<Pose> few;
-  for (std::size_t k = 0; k < kMostPoses; ++k) few.push_back(poses[k * (poses.size() - 1) / (kMostPoses - 1)]);
+std::vector<std::size_t> thinned(std::size_t count) {
+  std::vector<std::size_t> few;
+  if (count <= kMostPoses)
+    for (std::size_t k = 0; k < count; ++k) few.push_back(k);
+  else
+    for (std::size_t k = 0; k < kMostPoses; ++k) few.push_back(k * (count - 1) / (kMostPoses - 1));
   return few;
 }
 
@@ -91,20 +101,43 @@ std::vector<std::array<double, 3>> tilted_turns(const Vec3& spindle, const std::
   return turns;
 }
 
+/// Turns that bring a direction of the part to the spindle, a quarter apart about it; the one nearest to the part's own frame first.
+std::vector<std::array<double, 3>> upward_turns(const Vec3& spindle, const Vec3& up) {
+  std::vector<std::array<double, 3>> turns;
+  for (double spin = 0.0; spin < 360.0; spin += 90.0)
+    turns.push_back(angles_of(
+        (Eigen::AngleAxisd(spin * std::numbers::pi / 180.0, spindle) * least_turn(up, spindle)).toRotationMatrix()));
+  return turns;
+}
+
 /// All turns and places one after the other; the best that the machine reaches is kept.
 class Search {
  public:
-  Search(const Machine& machine, const Kinematics& kinematics, const std::vector<Pose>& poses,
-         std::span<const SolidBody> solids, const UprightPlace& upright)
-      : machine_(machine), kinematics_(kinematics), poses_(thinned(poses)), solids_(solids), upright_(upright) {
-    for (const Pose& p : poses_) box_.add(p.tip);
+  Search(const Machine& machine, const Kinematics& kinematics, const SetupSearch& asked,
+         std::span<const SolidBody> solids)
+      : machine_(machine),
+        kinematics_(kinematics),
+        solids_(solids),
+        upright_(asked.upright),
+        clamping_(asked.clamping) {
+    for (const std::size_t k : thinned(asked.poses.size())) {
+      poses_.push_back(asked.poses[k]);
+      cutting_.push_back(asked.cutting.empty() || asked.cutting[k]);
+      box_.add(asked.poses[k].tip);
+    }
+    if (clamping_.centred && !machine_.joints[kinematics_.rotary_joints()[0]].table)
+      throw UsageError("clamp", "bore", "needs a machine whose table turns; expected bottom or any");
   }
 
   FoundSetup run() {
+    if (clamping_.up) {
+      try_all(upward_turns(machine_.tool_axis, *clamping_.up));
+      return found_;
+    }
     try_all(square_turns());
     // Square to the machine is how people clamp. Tilted turns are tried only if that fails, or runs beside the
     // singular direction, where the first rotary joint races.
-    if (!found_.setup || found_.least_sine < std::sin(5.0 * std::numbers::pi / 180.0))
+    if (!found_.setup || (!still_ && found_.least_sine < std::sin(5.0 * std::numbers::pi / 180.0)))
       try_all(tilted_turns(machine_.tool_axis, poses_));
     return found_;
   }
@@ -114,7 +147,7 @@ class Search {
     for (const auto& angles : turns) {
       WorkSetup setup;
       setup.angles_deg = angles;
-      const Vec3 middle = setup.rotation() * box_.center();
+      const Vec3 middle = setup.rotation() * clamping_.centred.value_or(box_.center());
       for (const Vec3& place : places()) {
         setup.translation = place - middle;
         for (int k = 0; k < 3; ++k) setup.translation(k) = std::round(setup.translation(k) * 1e3) / 1e3 + 0.0;
@@ -171,6 +204,7 @@ class Search {
       worth_ = worth;
       found_.setup = setup;
       found_.least_sine = choice.least_sine;
+      still_ = rotary_use(choice).still > 0;
     }
     return Outcome::kFits;
   }
@@ -191,7 +225,35 @@ class Search {
     return std::nullopt;
   }
 
-  /// Away from the singular direction, well inside the travels, tilted little.
+  /// What the rotary joints do while the tool cuts.
+  struct RotaryUse {
+    int still = 0;              ///< joints that do not turn
+    bool second_still = false;  ///< the one next to the tool is one of them
+    double turns = 0.0;         ///< of both together, there and back
+  };
+  RotaryUse rotary_use(const JointChoice& choice) const {
+    RotaryUse use;
+    for (std::size_t r = 0; r < 2; ++r) {
+      const std::size_t joint = kinematics_.rotary_joints()[r];
+      double low = 0.0, high = 0.0;
+      bool any = false;
+      for (std::size_t k = 0; k < choice.joints.size(); ++k) {
+        if (!cutting_[k]) continue;
+        const double at = choice.joints[k][joint];
+        low = any ? std::min(low, at) : at;
+        high = any ? std::max(high, at) : at;
+        if (k > 0 && cutting_[k - 1])
+          use.turns += std::abs(at - choice.joints[k - 1][joint]) / (2.0 * std::numbers::pi);
+        any = true;
+      }
+      const bool still = any && high - low < kStill;
+      use.still += still ? 1 : 0;
+      if (r == 1) use.second_still = still;
+    }
+    return use;
+  }
+
+  /// Joints that stand still, away from the singular direction, few turns, well inside the travels, tilted little.
   double worth_of(const JointChoice& choice) const {
     double room = 1.0, tilt = 0.0;
     const std::size_t near_tool = kinematics_.rotary_joints()[1];
@@ -203,8 +265,10 @@ class Search {
       }
       tilt = std::max(tilt, std::abs(q[near_tool]));
     }
-    // Being away from the singular direction counts twice as much as room, and room twice as much as little tilt.
-    return 2.0 * std::min(choice.least_sine, kEnoughSine) / kEnoughSine + std::max(room, 0.0) -
+    const RotaryUse use = rotary_use(choice);
+    // Beside the singular direction the first joint races only where the tilt changes.
+    const double away = use.second_still ? 1.0 : std::min(choice.least_sine, kEnoughSine) / kEnoughSine;
+    return 2.0 * away + kStillWorth * use.still - kTurnPrice * std::min(use.turns, kMostTurns) + std::max(room, 0.0) -
            0.5 * tilt / std::numbers::pi;
   }
 
@@ -213,6 +277,9 @@ class Search {
   std::vector<Pose> poses_;
   std::span<const SolidBody> solids_;
   const UprightPlace& upright_;
+  const Clamping& clamping_;
+  std::vector<bool> cutting_;
+  bool still_ = false;  ///< of what was found: a rotary joint stands still while the tool cuts
   Box3 box_;
   double worth_ = 0.0;
   FoundSetup found_;
@@ -220,9 +287,9 @@ class Search {
 
 }  // namespace
 
-FoundSetup search_setup(const Machine& machine, const Kinematics& kinematics, const std::vector<Pose>& poses,
-                        std::span<const SolidBody> solids, const UprightPlace& upright) {
-  return Search(machine, kinematics, poses, solids, upright).run();
+FoundSetup search_setup(const Machine& machine, const Kinematics& kinematics, const SetupSearch& search,
+                        std::span<const SolidBody> solids) {
+  return Search(machine, kinematics, search, solids).run();
 }
 
 }  // namespace flank::internal

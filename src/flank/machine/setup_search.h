@@ -24,13 +24,27 @@ struct FoundSetup {
 /// frame) of the tool with the rotary joints at zero.
 using UprightPlace = std::function<Pose(const Vec3&)>;
 
-/// Tries turns of the part: the 24 that keep its axes along the machine's, then the path's middle direction at several
-/// tilts; and for each of them places on the table. Among those within all travels wins the one that keeps away from the
-/// singular direction (up to 30 degrees), tilts least, and leaves most of the travels. `poses` are of the controlled point
-/// in the part's frame; a path of many is thinned. At none of them may the `solids` meet (body_check.h). `upright`: where the machine must
-/// reach, too.
-[[nodiscard]] FoundSetup search_setup(const Machine& machine, const Kinematics& kinematics,
-                                      const std::vector<Pose>& poses, std::span<const SolidBody> solids = {},
-                                      const UprightPlace& upright = {});
+/// How the part can be clamped. Nothing given: any way up, anywhere.
+struct Clamping {
+  std::optional<Vec3> up = {};  ///< unit vector of the part that points to the spindle with the rotary joints at zero
+  std::optional<Vec3> centred =
+      {};  ///< a point of the part that is on the axis of the rotary joint that carries the part
+};
+
+/// What is to be reached, in the part's frame.
+struct SetupSearch {
+  std::vector<Pose> poses;    ///< of the controlled point
+  std::vector<bool> cutting;  ///< of each of them: along a strip, not on a link; empty: all are
+  UprightPlace upright = {};  ///< where the machine must reach, too
+  Clamping clamping = {};
+};
+
+/// Tries turns of the part: the 24 that keep its axes along the machine's, as far as the clamping lets them, then the path's middle
+/// direction at several tilts; and for each of them places on the table. Among those within all travels wins the one in which most
+/// rotary joints stand still while the tool cuts, that keeps away from the singular direction (up to 30 degrees, and where the second
+/// rotary joint moves), turns its rotary joints least, tilts least, and leaves most of the travels. A path of many poses is thinned. At
+/// none of them may the `solids` meet (body_check.h). Throws UsageError for a part that is to be centred on a table that does not turn.
+[[nodiscard]] FoundSetup search_setup(const Machine& machine, const Kinematics& kinematics, const SetupSearch& search,
+                                      std::span<const SolidBody> solids = {});
 
 }  // namespace flank::internal

@@ -11,6 +11,7 @@
 #include "flank/envelope/path_regularity.h"
 #include "flank/motion/written_path.h"
 #include "flank/path/bend_radius.h"
+#include "flank/pipeline/cut_direction.h"
 #include "flank/pipeline/folder/judge_job.h"
 #include "flank/strip/used_times.h"
 #include "flank/surface/ball_touch.h"
@@ -34,6 +35,13 @@ int machining_contact(const RuledMotion& motion, const RadialFunction& radial, c
 
 const JudgeRequest& request_of(const Result& result) {
   return std::visit([](const auto& plan) -> const JudgeRequest& { return plan.judge; }, result.job);
+}
+
+/// How passes are to mill; nothing for the cycles of a cavity, which are planned so.
+const std::string* cut_of(const PlanJob& job) {
+  if (const auto* fit = std::get_if<FitJob>(&job)) return &fit->cut;
+  if (const auto* cover = std::get_if<CoverJob>(&job)) return &cover->cut;
+  return nullptr;
 }
 
 /// After a stop, seconds: for a verdict and its picture.
@@ -70,8 +78,10 @@ void Stopwatch::lap(const std::string& stage) {
   last_ = now;
 }
 
-std::vector<StripSurface> add_strips(double tolerance_mm, const std::vector<const TargetGroup*>& groups,
+std::vector<StripSurface> add_strips(double tolerance_mm, const std::vector<const TargetGroup*>& machined_groups,
                                      Result& result) {
+  std::vector<const TargetGroup*> groups = machined_groups;
+  if (const std::string* cut = cut_of(result.job)) run_as(*cut, result.motions, groups);
   const std::vector<RuledMotion>& motions = result.motions;
   std::vector<StripSurface> surfaces;
   std::vector<const Target*> targets;

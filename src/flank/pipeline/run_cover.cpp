@@ -1,4 +1,5 @@
 #include "flank/pipeline/run_cover.h"
+#include "flank/pipeline/auto_shank.h"
 
 #include <fmt/format.h>
 
@@ -100,6 +101,7 @@ void ask_for_reach(const CoverJob& job, const Setup& setup, const std::vector<Co
 }  // namespace
 
 Result run_cover(const CoverJob& request, const Progress& asked) {
+  if (request.obstacles.shank == "auto") return with_auto_shank<CoverJob>(checked_for_auto(request), asked, run_cover);
   const Progress progress = with_journal(asked);
   check_fields(request);
   (void)options_of(request);

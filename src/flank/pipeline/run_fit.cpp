@@ -1,4 +1,5 @@
 #include "flank/pipeline/run_fit.h"
+#include "flank/pipeline/auto_shank.h"
 
 #include <fmt/format.h>
 
@@ -311,6 +312,7 @@ bool passes(const Result& result) {
 }  // namespace
 
 Result run_fit(const FitJob& request, const Progress& asked) {
+  if (request.obstacles.shank == "auto") return with_auto_shank<FitJob>(checked_for_auto(request), asked, run_fit);
   const Progress progress = with_journal(asked);
   check_job(request);
   Result result;

@@ -1,4 +1,5 @@
 #include "flank/pipeline/run_trochoid.h"
+#include "flank/pipeline/auto_shank.h"
 
 #include <fmt/format.h>
 
@@ -207,6 +208,8 @@ void take(const CavityPlan& plan, const TrochoidJob& job, const ToolSpec& spec, 
 }  // namespace
 
 Result run_trochoid(const TrochoidJob& request, const Progress& asked) {
+  if (request.obstacles.shank == "auto")
+    return with_auto_shank<TrochoidJob>(checked_for_auto(request), asked, run_trochoid);
   const Progress progress = with_journal(asked);
   check_job(request);
   Result result;

@@ -98,11 +98,17 @@ std::vector<Vec2> holder_profile(const std::string& text, double face) {
 }
 
 void check_obstacles(const ObstacleRequest& request, const Tool* tool) {
-  if (request.shank_radius_mm && !request.shank_length_mm)
+  if (request.shank != "given" && request.shank_length_mm)
+    throw UsageError("shank", request.shank, "contradicts `shank_length_mm`; give one of them");
+  if (request.shank == "auto" && request.holder)
+    throw UsageError("holder",
+                     "sits on a shank whose length is known; expected `shank_length_mm` with it, not `shank` auto");
+  if (request.shank_radius_mm && !request.shank_length_mm && request.shank != "auto")
     throw UsageError("shank_radius_mm", "needs `shank_length_mm`: how far the shank reaches above the flank");
   // Read for its errors alone, before minutes are spent on a plan.
   if (request.holder) (void)holder_profile(*request.holder);
-  const bool something = request.shank_length_mm || request.holder || !request.fixtures.empty();
+  const bool something =
+      request.shank == "auto" || request.shank_length_mm || request.holder || !request.fixtures.empty();
   if (request.clearance_mm && !something && (tool == nullptr || !has_body(*tool)))
     throw UsageError("clearance_mm", "needs `shank_length_mm`, `holder`, `fixtures`, or a tool with a shank");
   for (const std::string& file : request.fixtures)
@@ -113,6 +119,7 @@ void equip_tool(const ObstacleRequest& request, Tool& tool) {
   // The upper end of the meridian: z and radius there; a shank without a radius of its own goes on as thick as the
   // flank ends.
   const Vec2 top = meridian_point(tool.radial, tool.radial.axis_length());
+  if (request.shank == "none") tool.shank.clear();
   if (request.shank_length_mm) {
     const double radius = request.shank_radius_mm.value_or(top.y());
     tool.shank = lifted({{0.0, radius}, {*request.shank_length_mm, radius}}, top.x());

@@ -77,6 +77,8 @@ std::string safe_comment(std::string_view name) {
 
 std::vector<std::string> header_comments(const NcHeader& header) {
   std::vector<std::string> comments;
+  if (header.operation) comments.push_back(operation_comment(*header.operation));
+  if (!header.copy_axis.empty()) comments.push_back(safe_comment("COPIES ABOUT " + header.copy_axis));
   if (!header.part.empty()) comments.push_back(safe_comment("PART " + header.part));
   if (!header.machine.empty()) comments.push_back(safe_comment("MACHINE " + header.machine));
   if (!header.setup.empty()) comments.push_back(safe_comment("SETUP " + header.setup));
@@ -145,6 +147,8 @@ bool read_header_comment(std::string_view comment, NcHeader& header) {
     state(header.setup, *setup, "SETUP", header);
   } else if (const auto offset = after(comment, "WORK OFFSET")) {
     return read_offset(*offset, header);
+  } else if (const auto axis = after(comment, "COPIES ABOUT")) {
+    state(header.copy_axis, *axis, "COPIES ABOUT", header);
   } else if (const auto tool = after(comment, "TOOL")) {
     return read_dimensions(*tool, header.tool) || read_tool(*tool, header);
   } else {
@@ -152,6 +156,39 @@ bool read_header_comment(std::string_view comment, NcHeader& header) {
     header.stated.dry_run = true;
   }
   return true;
+}
+
+std::string operation_comment(const NcOperation& operation) {
+  std::string text = "OPERATION " + std::to_string(operation.number) + " OF " + std::to_string(operation.count);
+  if (operation.copies > 1)
+    text += " COPY " + std::to_string(operation.copy) + " OF " + std::to_string(operation.copies);
+  if (!operation.name.empty()) text += " " + operation.name;
+  return safe_comment(text);
+}
+
+std::optional<NcOperation> read_operation_comment(std::string_view comment) {
+  auto rest = after(comment, "OPERATION");
+  if (!rest) return std::nullopt;
+  // "k OF n": of both, and of nothing else, a number of which k is one.
+  const auto pair = [&](int& which, int& count) {
+    const auto k = whole(take_word(*rest));
+    const bool of = take_word(*rest) == "OF";
+    const auto n = whole(take_word(*rest));
+    if (!k || !of || !n || *k < 1 || *k > *n || *n > kMostOperations) return false;
+    which = *k;
+    count = *n;
+    return true;
+  };
+  NcOperation operation;
+  if (!pair(operation.number, operation.count)) return std::nullopt;
+  if (rest->starts_with("COPY ")) {
+    const std::string_view name = *rest;
+    take_word(*rest);
+    // Else it is a name that begins with COPY.
+    if (!pair(operation.copy, operation.copies)) rest = name;
+  }
+  operation.name = *rest;
+  return operation;
 }
 
 std::string strip_comment(const NcStrip& strip) {

@@ -30,6 +30,13 @@ inline constexpr std::string_view kDryRun = "DRY RUN";
 /// differ is kept.
 bool read_header_comment(std::string_view comment, NcHeader& header);
 
+/// Operations of a program, at most.
+inline constexpr int kMostOperations = 9'999;
+/// "OPERATION 2 OF 6 finish", or "OPERATION 2 OF 6 COPY 2 OF 3 finish": what begins an operation of a program of several.
+[[nodiscard]] std::string operation_comment(const NcOperation& operation);
+/// The operation that such a comment begins; nothing if it is another comment.
+[[nodiscard]] std::optional<NcOperation> read_operation_comment(std::string_view comment);
+
 /// "STRIP 3 flank F1,F3", and the comment after which moves belong to no strip.
 [[nodiscard]] std::string strip_comment(const NcStrip& strip);
 inline constexpr std::string_view kEndOfStrip = "END OF STRIP";

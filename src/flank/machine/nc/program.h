@@ -51,6 +51,15 @@ struct NcStated {
   std::string contradiction = {};  ///< two comments that say different things, for a message; empty: none
 };
 
+/// Of a program of several operations: which of them this is. Each begins from any state of the control, so that it can be entered
+/// by itself.
+struct NcOperation {
+  int number = 1, count = 1;
+  int copy = 1, copies = 1;  ///< run turned by (copy - 1) / copies of a turn about an axis of the part
+  std::string name = {};     ///< for people
+  bool operator==(const NcOperation&) const = default;
+};
+
 /// Facts that a header states. No dates: the same program is the same bytes.
 struct NcHeader {
   std::string program = "FLANK";  ///< name of the program
@@ -60,8 +69,11 @@ struct NcHeader {
   std::string setup = {};         ///< where the part sits, "x,y,z,a,b,c" (work_setup.h); empty: not known
   std::string origin = {};        ///< what the work offset holds for that, "X5 Y-8 Z60"; empty: not known
   NcTool tool;
-  double spindle_rpm = 0.0;  ///< 0: the spindle is not started
-  bool dry_run = false;      ///< written as a comment: the spindle is not to turn
+  std::optional<NcOperation> operation = {};  ///< none: the program is one operation
+  std::string copy_axis = {};                 ///< "x,y,z,x,y,z" in the part's frame, of an operation of several copies
+  double spindle_rpm = 0.0;                   ///< 0: the spindle is not started
+  std::string coolant = {};                   ///< "flood" or "mist"; empty: off. Not read back
+  bool dry_run = false;                       ///< written as a comment: the spindle is not to turn
   std::vector<std::string> shortfalls =
       {};                                  ///< why the program does not meet its request, for its header. Not read back
   std::vector<std::string> cautions = {};  ///< what its verdict says nothing about, likewise

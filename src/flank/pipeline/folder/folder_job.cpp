@@ -39,6 +39,7 @@ void apply(const VerifyJob& request, Job& job) {
   if (!asked.fixtures.empty()) obstacles.fixtures = asked.fixtures;
   replace(obstacles.fixture_unit, asked.fixture_unit);
   replace(obstacles.clearance_mm, asked.clearance_mm);
+  if (asked.shank != "given") obstacles.shank = asked.shank;
   replace(obstacles.shank_radius_mm, asked.shank_radius_mm);
   replace(obstacles.shank_length_mm, asked.shank_length_mm);
   replace(obstacles.holder, asked.holder);

@@ -28,6 +28,7 @@
 #include "flank/pipeline/folder/judge_program.h"
 #include "flank/setup/clearance_scene.h"
 #include "flank/setup/read_setup.h"
+#include "flank/setup/shank_reach.h"
 #include "flank/setup/tool_body.h"
 
 namespace flank::internal {
@@ -112,11 +113,19 @@ Verification judge_path(const VerifyJob& request, const Job& job, const std::str
   const auto file = [&](const char* name) { return (std::filesystem::path(request.folder) / name).string(); };
   Verification outcome;
   outcome.job = job;
-  const Tool tool = read_and_equip(file("tool.json"), request.obstacles, job.obstacles);
+  Tool tool = read_and_equip(file("tool.json"), request.obstacles, job.obstacles);
   const Path path = read_path(file("path.json"));
   std::vector<std::string> repairs;  // told when the folder was made
   const Setup setup = read_setup(machined(job), job.obstacles, job.tolerance_mm, repairs);
   outcome.notes.assign(repairs.begin() + static_cast<std::ptrdiff_t>(setup.part.repairs.size()), repairs.end());
+  if (request.obstacles.shank == "auto") {
+    ObstacleRequest chosen = request.obstacles;
+    choose_shank(tool, path, setup.part.box, chosen);
+    equip_tool(chosen, tool);
+    outcome.notes.push_back(
+        fmt::format("the shank was chosen: diameter {:.4g} mm, {:g} mm above the flank, where it is out of the part",
+                    2.0 * tool.shank.back().y(), *chosen.shank_length_mm));
+  }
   check_origin(request, folder, setup.part, outcome);
   require_known_faces(path, setup.part, file("path.json"));
   outcome.report = judge_job(setup, job.judge, tool, path);
@@ -158,6 +167,8 @@ namespace flank {
 Verification run_verify(const VerifyJob& request) {
   internal::check_fields(request);
   if (request.nc.file) return internal::judge_program(request);
+  if (!request.more_folders.empty())
+    throw UsageError("more_folders", "needs a program by `nc`; of paths one folder is checked at a time");
   if (request.folder.empty()) throw UsageError("folder", "give a result folder, or an NC program by `nc`");
   return internal::judge_folder(request);
 }

@@ -20,6 +20,8 @@
 #include "flank/pipeline/folder/folder_job.h"
 #include "flank/pipeline/folder/judge_job.h"
 #include "flank/pipeline/folder/machine_scene.h"
+#include "flank/pipeline/folder/operation_words.h"
+#include "flank/pipeline/folder/turned_copies.h"
 #include "flank/pipeline/program/followed_path.h"
 #include "flank/pipeline/program/program_rapids.h"
 #include "flank/pipeline/program/program_setup.h"
@@ -187,18 +189,32 @@ BackplotOptions options_of(const VerifyJob& request, const Question& q, double t
   return options;
 }
 
+/// The path of a turned copy, where the path of the folder is: turned, the part is the same.
+void turn_back(const std::string& file, const NcProgram& program, const Setup& setup, Backplot& plot) {
+  const std::optional<NcOperation>& of = program.header.operation;
+  if (!of || of->copies == 1) return;
+  CopyAxis axis;
+  try {
+    axis = parse_copy_axis(program.header.copy_axis);
+  } catch (const UsageError& e) {
+    throw InputError(file + ": its header (COPIES ABOUT): " + e.what());
+  }
+  if (of->copy == 1) require_same_when_turned(setup, axis, of->copies);
+  plot.path = turned(std::move(plot.path), copy_turn(axis, of->copy, of->copies).inverse());
+}
+
 template <class Job>
-Verification judge(const VerifyJob& request, const Job& job, const Question& q) {
+Verification judge(const VerifyJob& request, const Job& job, const Question& q, Machine machine,
+                   const NcProgram& program) {
   const std::string& file = *request.nc.file;
   const Planned planned = planned_of(request, std::is_same_v<Job, TrochoidJob>);
-  Machine machine = read_machine(*request.nc.machine);
-  const NcProgram program = read_nc(read_file(file), file, machine.dialect);
   Verification outcome;
   outcome.job = job;
   std::vector<std::string> repairs;
   const Setup setup = read_setup(q.part, q.obstacles, q.tolerance_mm, repairs);
   const BackplotOptions options = options_of(request, q, setup.tolerance_mm, machine, program, outcome);
-  const Backplot plot = backplot(machine, program, file, options);
+  Backplot plot = backplot(machine, program, file, options);
+  turn_back(file, program, setup, plot);
   const Ran ran{file, program, plot};
   outcome.report = judge_job(setup, q.judge, q.tool, plot.path);
   const ClearanceScene scene = make_clearance_scene(setup, q.obstacles, has_body(q.tool), outcome.notes);
@@ -219,17 +235,85 @@ Verification judge(const VerifyJob& request, const Job& job, const Question& q) 
   return outcome;
 }
 
+/// One operation, or a program that is one, of the folder of `request`.
+Verification judge_operation(const VerifyJob& request, const Machine& machine, const NcProgram& program) {
+  if (request.folder.empty()) {
+    const FitJob job = job_of(request);
+    return judge(request, job, question_of(request, job), machine, program);
+  }
+  const ResultFolder folder(request.folder, ResultFolder::Use::kRead);
+  const FolderJob found = read_folder_job(request, folder);
+  return std::visit([&](const auto& job) { return judge(request, job, question_of(request, job), machine, program); },
+                    found.job);
+}
+
+/// What operations must have in common, and what not.
+void accept_together(const VerifyJob& request, const std::vector<NcProgram>& operations, std::size_t copies,
+                     const std::vector<std::string>& folders, Acceptance& acceptance) {
+  const std::string& file = *request.nc.file;
+  const auto tool_file = [&](std::size_t k) {
+    return read_file((std::filesystem::path(folders[k / copies]) / "tool.json").string());
+  };
+  const NcHeader& first = operations.front().header;
+  for (std::size_t k = 1; k < operations.size(); ++k) {
+    const NcHeader& header = operations[k].header;
+    if (!request.nc.setup && (header.setup != first.setup || header.origin != first.origin))
+      add_reason(acceptance, Figure::kSetup,
+                 fmt::format("{}: operation {} has set-up {}, the first one {}; expected one set-up", file, k + 1,
+                             header.setup, first.setup));
+    if (header.copy_axis != first.copy_axis)
+      add_reason(acceptance, Figure::kSetup,
+                 fmt::format("{}: operation {} turns its copies about {}, the first one about {}", file, k + 1,
+                             header.copy_axis, first.copy_axis));
+    for (std::size_t i = 0; i < k; ++i)
+      if (operations[i].header.tool.number == header.tool.number && tool_file(i) != tool_file(k))
+        add_reason(acceptance, Figure::kToolNumber,
+                   fmt::format("{}: operations {} and {} have two different tools, and both call tool {}", file, i + 1,
+                               k + 1, header.tool.number));
+  }
+}
+
+Verification judge_operations(const VerifyJob& request, const std::vector<std::string>& folders, const Machine& machine,
+                              const std::vector<NcProgram>& operations) {
+  if (request.nc.tool) throw UsageError("tool", "is of one operation; each folder has its own");
+  if (request.nc.faces) throw UsageError("faces", "are of one operation; each folder has its own");
+  if (request.nc.tool_number) throw UsageError("tool_number", "is of one operation; each has its own in its header");
+  require_operations(*request.nc.file, operations, folders.size());
+  const std::size_t copies = operations.size() / folders.size();
+  Verification all;
+  for (std::size_t k = 0; k < operations.size(); ++k) {
+    VerifyJob one = request;
+    one.folder = folders[k / copies];
+    one.more_folders.clear();
+    const std::string before = heading(operations[k].header.operation.value_or(NcOperation{}));
+    Verification judged = judge_operation(one, machine, operations[k]);
+    for (const Shortfall& reason : judged.acceptance.reasons)
+      all.acceptance.reasons.push_back({reason.figure, before + reason.text});
+    for (const Shortfall& caution : judged.acceptance.cautions)
+      all.acceptance.cautions.push_back({caution.figure, before + caution.text});
+    all.operation_names.push_back(before.substr(0, before.size() - 2));
+    all.operations.push_back(std::move(judged));
+  }
+  accept_together(request, operations, copies, folders, all.acceptance);
+  all.job = all.operations.front().job;
+  return all;
+}
+
 }  // namespace
 
 Verification judge_program(const VerifyJob& request) {
   if (!request.nc.machine) throw UsageError("machine", "must be given with `nc`: a name, or a file NAME.toml");
-  if (request.folder.empty()) {
-    const FitJob job = job_of(request);
-    return judge(request, job, question_of(request, job));
-  }
-  const ResultFolder folder(request.folder, ResultFolder::Use::kRead);
-  const FolderJob found = read_folder_job(request, folder);
-  return std::visit([&](const auto& job) { return judge(request, job, question_of(request, job)); }, found.job);
+  const std::string& file = *request.nc.file;
+  const Machine machine = read_machine(*request.nc.machine);
+  const std::vector<NcProgram> operations = read_nc_operations(read_file(file), file, machine.dialect);
+  if (operations.size() == 1 && request.more_folders.empty())
+    return judge_operation(request, machine, operations.front());
+  if (request.folder.empty())
+    throw InputError(
+        fmt::format("{}: has {} operations; give the folder of each, in their order", file, operations.size()));
+  std::vector<std::string> folders{request.folder};
+  folders.insert(folders.end(), request.more_folders.begin(), request.more_folders.end());
+  return judge_operations(request, folders, machine, operations);
 }
 
 }  // namespace flank::internal

@@ -34,7 +34,7 @@ class AptReader {
     for (std::size_t i = 0; i < 3; ++i) axis_[i] = i == 2 ? 1.0 : 0.0;
   }
 
-  NcProgram read(std::string_view text) {
+  std::vector<NcProgram> read(std::string_view text) {
     NcLines lines(text);
     while (lines.next()) {
       const std::string_view line = trimmed(lines.line());
@@ -186,7 +186,7 @@ class AptReader {
 };
 
 /// As read_nc, for a text that was not recognised as one of another language.
-NcProgram read_apt(std::string_view text, const std::string& file, const NcDialect& dialect) {
+std::vector<NcProgram> read_apt(std::string_view text, const std::string& file, const NcDialect& dialect) {
   return AptReader(file, dialect).read(text);
 }
 
@@ -224,13 +224,17 @@ void go_to(std::string& text, const NcMove& move, const NcDialect& dialect) {
   text += '\n';
 }
 
-void header(std::string& text, const NcProgram& program) {
-  const NcHeader& h = program.header;
-  const auto print = [&](const std::string& comment) { text += "PPRINT " + comment + '\n'; };
+/// Before the first operation.
+void opening(std::string& text, const NcHeader& h) {
   text += "PARTNO " + safe_comment(h.part.empty() ? "-" : h.part) + '\n';
   // MULTAX: every GOTO has a direction of the tool beside its point.
   text += "UNITS/MM\nMULTAX/ON\n";
-  print(safe_comment("PROGRAM " + h.program));
+  text += "PPRINT " + safe_comment("PROGRAM " + h.program) + '\n';
+}
+
+void header(std::string& text, const NcProgram& program) {
+  const NcHeader& h = program.header;
+  const auto print = [&](const std::string& comment) { text += "PPRINT " + comment + '\n'; };
   NcHeader without_part = h;  // PARTNO has it
   without_part.part.clear();
   for (const std::string& comment : header_comments(without_part)) print(comment);
@@ -238,9 +242,11 @@ void header(std::string& text, const NcProgram& program) {
   print("WORK OFFSET " + std::to_string(h.work_offset));
   print(program.join == NcJoin::kGreatCircle ? "JOIN GREAT CIRCLE" : "JOIN AXES");
   text += "LOADTL/" + std::to_string(h.tool.number) + '\n';
-  if (h.spindle_rpm <= 0.0) return;  // the header says that it is a dry run
-  append_short_decimal(text += "SPINDL/", h.spindle_rpm, 3);
-  text += ",CLW\n";
+  if (h.spindle_rpm > 0.0) {  // else the header says that it is a dry run
+    append_short_decimal(text += "SPINDL/", h.spindle_rpm, 3);
+    text += ",CLW\n";
+  }
+  if (!h.coolant.empty()) text += h.coolant == "mist" ? "COOLNT/MIST\n" : "COOLNT/FLOOD\n";
 }
 
 /// A feed where it changes, or after a rapid, which is for one motion.
@@ -261,12 +267,10 @@ void refuse_unsayable(const NcProgram& program) {
     throw UsageError("dialect", "apt", "has no inverse time; expected a feed in mm/min");
 }
 
-/// As write_nc, for a program that passed its checks: GOTO with the tool vector. No rotary axes, no inverse time.
-std::string write_apt(const NcProgram& program, const NcDialect& dialect) {
-  refuse_unsayable(program);
-  std::string text, feed;
-  text.reserve(1000 + kBytesOfMove * program.moves.size());
+/// One operation: GOTO with the tool vector. No rotary axes, no inverse time.
+void write_operation(std::string& text, const NcProgram& program, const NcDialect& dialect) {
   header(text, program);
+  std::string feed;
   std::int32_t strip = -1;
   for (std::size_t i = 0; i < program.moves.size(); ++i) {
     const NcMove& m = program.moves[i];
@@ -283,7 +287,22 @@ std::string write_apt(const NcProgram& program, const NcDialect& dialect) {
       feed_of(text, feed, m, dialect);
     go_to(text, m, dialect);
   }
-  return text + "SPINDL/OFF\nFINI\n";
+  if (!program.header.coolant.empty()) text += "COOLNT/OFF\n";
+  text += "SPINDL/OFF\n";
+}
+
+/// As write_nc, for operations that passed its checks.
+std::string write_apt(std::span<const NcProgram> operations, const NcDialect& dialect) {
+  std::string text;
+  opening(text, operations.front().header);
+  for (const NcProgram& operation : operations) {
+    refuse_unsayable(operation);
+    text.reserve(text.size() + 1000 + kBytesOfMove * operation.moves.size());
+    // The tool is changed where the machine does that.
+    if (&operation != &operations.front()) text += "GOHOME\n";
+    write_operation(text, operation, dialect);
+  }
+  return text + "FINI\n";
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ class FanucReader {
  public:
   FanucReader(const std::string& file, const NcDialect& dialect) : builder_(file, dialect), dialect_(dialect) {}
 
-  NcProgram read(std::string_view text) {
+  std::vector<NcProgram> read(std::string_view text) {
     NcLines lines(text);
     while (lines.next()) {
       builder_.at(lines.number());
@@ -250,7 +250,7 @@ class FanucReader {
 };
 
 /// As read_nc, for a text that was not recognised as one of another language.
-NcProgram read_fanuc(std::string_view text, const std::string& file, const NcDialect& dialect) {
+std::vector<NcProgram> read_fanuc(std::string_view text, const std::string& file, const NcDialect& dialect) {
   return FanucReader(file, dialect).read(text);
 }
 
@@ -267,20 +267,15 @@ std::string program_number(int number) {
   return "O" + std::string(4 - digits.size(), '0') + digits;
 }
 
-/// As write_nc, for a program that passed its checks: G43.4 with rotary words, G43.5 with the tool vector I J K on every
-/// block, or joint coordinates without length compensation. G5.1 Q1 where a smoothing tolerance is given.
-std::string write_fanuc(const NcProgram& program, const NcDialect& dialect) {
+/// One operation: G43.4 with rotary words, G43.5 with the tool vector I J K on every block, or joint coordinates without length
+/// compensation. G5.1 Q1 where a smoothing tolerance is given.
+void write_operation(GCodeWriter& out, const NcProgram& program, const NcDialect& dialect) {
   const NcHeader& header = program.header;
-  if (header.work_offset > kLastOffset) throw UsageError("dialect", "fanuc", "has work offsets 1 to 54");
-  if (header.number < 1 || header.number > kLargestWritten)
-    throw UsageError("dialect", "fanuc", "has program numbers 1 to 9999");
   const bool tip = program.positions != NcPositions::kJoint, smooth = dialect.smoothing_mm > 0.0;
   const std::string tool = std::to_string(header.tool.number);
   const std::string tcp = (program.positions == NcPositions::kTipVector ? "G43.5 H" : "G43.4 H") + tool;
-  GCodeWriter out(program, dialect, {"(", ")", true, {"I", "J", "K"}});
-  out.raw("%");
-  out.raw(program_number(header.number) + " " + out.comment_text(safe_comment(header.program)));
-  for (const std::string& line : header_comments(header)) out.comment(line);
+  const std::string coolant = coolant_words(header);
+  out.operation(program);
   const auto retract = [&] {
     // A place of the machine's own Z, where its file gives one; else the reference position.
     if (dialect.retract_mm) return out.retract();
@@ -296,6 +291,7 @@ std::string write_fanuc(const NcProgram& program, const NcDialect& dialect) {
   // The rotary axes turn before G43.4 or G43.5: afterwards the control would hold the tip where it is meanwhile.
   out.start_rotary();
   if (const std::string spindle = spindle_words(header); !spindle.empty()) out.block(spindle);
+  if (!coolant.empty()) out.block(coolant);
   if (smooth) out.block("G5.1 Q1");
   if (tip) out.block(tcp);
   if (program.feed_mode == NcFeedMode::kInverseTime) out.block("G93");
@@ -311,8 +307,21 @@ std::string write_fanuc(const NcProgram& program, const NcDialect& dialect) {
   if (tip) out.block("G49");
   if (smooth) out.block("G5.1 Q0");
   retract();
+  if (!coolant.empty()) out.block("M9");
   out.block("M5");
   out.end_rotary();
+}
+
+/// As write_nc, for operations that passed its checks.
+std::string write_fanuc(std::span<const NcProgram> operations, const NcDialect& dialect) {
+  const NcHeader& header = operations.front().header;
+  if (header.work_offset > kLastOffset) throw UsageError("dialect", "fanuc", "has work offsets 1 to 54");
+  if (header.number < 1 || header.number > kLargestWritten)
+    throw UsageError("dialect", "fanuc", "has program numbers 1 to 9999");
+  GCodeWriter out(operations, dialect, {"(", ")", true, {"I", "J", "K"}});
+  out.raw("%");
+  out.raw(program_number(header.number) + " " + out.comment_text(safe_comment(header.program)));
+  for (const NcProgram& operation : operations) write_operation(out, operation, dialect);
   out.block("M30");
   out.raw("%");
   return out.take();

@@ -46,7 +46,7 @@ class HeidenhainReader {
     builder_.allow_joint(false);
   }
 
-  NcProgram read(std::string_view text) {
+  std::vector<NcProgram> read(std::string_view text) {
     NcLines lines(text);
     while (lines.next()) {
       builder_.at(lines.number());
@@ -320,6 +320,7 @@ class HeidenhainReader {
         break;
       case 0:
       case 1:
+      case 7:
       case 8:
       case 9:
       case 126:
@@ -343,7 +344,7 @@ class HeidenhainReader {
 };
 
 /// As read_nc, for a text that was not recognised as one of another language.
-NcProgram read_heidenhain(std::string_view text, const std::string& file, const NcDialect& dialect) {
+std::vector<NcProgram> read_heidenhain(std::string_view text, const std::string& file, const NcDialect& dialect) {
   return HeidenhainReader(file, dialect).read(text);
 }
 

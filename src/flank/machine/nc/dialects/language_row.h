@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "flank/machine/nc/dialect.h"
 
@@ -16,8 +18,9 @@ struct NcLanguageRow {
   NcLanguage language = NcLanguage::kLinuxCnc;
   std::string_view name{};   ///< of machine files: "linuxcnc"
   std::string_view title{};  ///< for messages: "LinuxCNC"
-  NcProgram (*read)(std::string_view text, const std::string& file, const NcDialect& dialect) = nullptr;
-  std::string (*write)(const NcProgram& program, const NcDialect& dialect) = nullptr;
+  /// The operations of a program; one, or more of ours.
+  std::vector<NcProgram> (*read)(std::string_view text, const std::string& file, const NcDialect& dialect) = nullptr;
+  std::string (*write)(std::span<const NcProgram> operations, const NcDialect& dialect) = nullptr;
 
   // Words that decide: no other language has them where they are looked for. Comments are taken off before, since a part's name
   // may hold anything.

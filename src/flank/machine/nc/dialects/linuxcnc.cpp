@@ -35,7 +35,7 @@ class LinuxCncReader {
     if (tcp_on_.empty() && dialect.positions != NcPositions::kJoint) builder_.tool_centre(true);
   }
 
-  NcProgram read(std::string_view text) {
+  std::vector<NcProgram> read(std::string_view text) {
     NcLines lines(text);
     while (lines.next()) {
       builder_.at(lines.number());
@@ -237,7 +237,7 @@ class LinuxCncReader {
 };
 
 /// As read_nc, for a text that was not recognised as one of another language.
-NcProgram read_linuxcnc(std::string_view text, const std::string& file, const NcDialect& dialect) {
+std::vector<NcProgram> read_linuxcnc(std::string_view text, const std::string& file, const NcDialect& dialect) {
   return LinuxCncReader(file, dialect).read(text);
 }
 
@@ -278,17 +278,13 @@ std::string smoothing(const NcDialect& dialect) {
   return words + " Q0.0";
 }
 
-/// As write_nc, for a program that passed its checks. Tool-centre control is the machine's kinematics, switched by the
-/// dialect's M words where it has some; joint coordinates stand without length compensation.
-std::string write_linuxcnc(const NcProgram& program, const NcDialect& dialect) {
-  refuse_unsayable(program, dialect);
+/// One operation. Tool-centre control is the machine's kinematics, switched by the dialect's M words where it has some; joint
+/// coordinates stand without length compensation.
+void write_operation(GCodeWriter& out, const NcProgram& program, const NcDialect& dialect) {
   const NcHeader& header = program.header;
   const bool tip = program.positions != NcPositions::kJoint, switched = tip && !dialect.tcp_on.empty();
-  const std::string tool = std::to_string(header.tool.number);
-  GCodeWriter out(program, dialect, {});
-  out.raw("%");
-  out.comment(safe_comment("PROGRAM " + header.program));
-  for (const std::string& line : header_comments(header)) out.comment(line);
+  const std::string tool = std::to_string(header.tool.number), coolant = coolant_words(header);
+  out.operation(program);
   out.block("G21 G17 G90 G94 G40 G49 G80");
   out.block(smoothing(dialect));
   // Wherever the tool stands: nothing turns before it is out of the way.
@@ -301,6 +297,7 @@ std::string write_linuxcnc(const NcProgram& program, const NcDialect& dialect) {
   // The kinematics take the tool's length from here; joints are stated for none. They do not jump: the tool stands upright.
   if (tip) out.block("G43 H" + tool);
   if (const std::string spindle = spindle_words(header); !spindle.empty()) out.block(spindle);
+  if (!coolant.empty()) out.block(coolant);
   if (switched) out.block(dialect.tcp_on);
   // From here on: a G0 under G93 is right, but nothing before it needs G93.
   if (program.feed_mode == NcFeedMode::kInverseTime) out.block("G93");
@@ -314,8 +311,18 @@ std::string write_linuxcnc(const NcProgram& program, const NcDialect& dialect) {
   // Upright once more: without the tool's length the kinematics hold the joints where they are.
   out.block("G94 G49");
   out.retract();
+  if (!coolant.empty()) out.block("M9");
   out.block("M5");
   if (!tip || switched) out.end_rotary();
+}
+
+/// As write_nc, for operations that passed its checks.
+std::string write_linuxcnc(std::span<const NcProgram> operations, const NcDialect& dialect) {
+  for (const NcProgram& operation : operations) refuse_unsayable(operation, dialect);
+  GCodeWriter out(operations, dialect, {});
+  out.raw("%");
+  out.comment(safe_comment("PROGRAM " + operations.front().header.program));
+  for (const NcProgram& operation : operations) write_operation(out, operation, dialect);
   out.block("M2");
   out.raw("%");
   return out.take();

@@ -24,10 +24,17 @@ void refuse_others(std::string_view text, const std::string& file, NcLanguage la
 
 }  // namespace
 
-NcProgram read_nc(std::string_view text, const std::string& file, const NcDialect& dialect) {
+std::vector<NcProgram> read_nc_operations(std::string_view text, const std::string& file, const NcDialect& dialect) {
   require_rotary_letters(dialect.rotary);
   refuse_others(text, file, dialect.language);
   return row_of(dialect.language).read(text, file, dialect);
+}
+
+NcProgram read_nc(std::string_view text, const std::string& file, const NcDialect& dialect) {
+  std::vector<NcProgram> operations = read_nc_operations(text, file, dialect);
+  if (operations.size() > 1)
+    NcPlace{file}.refuse("has " + std::to_string(operations.size()) + " operations; expected a program of one");
+  return std::move(operations.front());
 }
 
 }  // namespace flank::internal

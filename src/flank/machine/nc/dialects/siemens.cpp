@@ -36,7 +36,7 @@ class SiemensReader {
     builder_.change_at_call(true);
   }
 
-  NcProgram read(std::string_view text) {
+  std::vector<NcProgram> read(std::string_view text) {
     NcLines lines(text);
     while (lines.next()) {
       builder_.at(lines.number());
@@ -234,7 +234,7 @@ class SiemensReader {
 };
 
 /// As read_nc, for a text that was not recognised as one of another language.
-NcProgram read_siemens(std::string_view text, const std::string& file, const NcDialect& dialect) {
+std::vector<NcProgram> read_siemens(std::string_view text, const std::string& file, const NcDialect& dialect) {
   return SiemensReader(file, dialect).read(text);
 }
 
@@ -267,15 +267,13 @@ void tool_centre_on(GCodeWriter& out, const NcProgram& program) {
   out.block(program.join == NcJoin::kGreatCircle ? "ORIWKS ORIVECT" : "ORIWKS ORIAXES");
 }
 
-/// As write_nc, for a program that passed its checks: TRAORI with rotary words or with the tool vector A3= B3= C3=,
-/// ORIAXES or ORIVECT as the control shall join blocks; or joint coordinates without a transformation.
-std::string write_siemens(const NcProgram& program, const NcDialect& dialect) {
+/// One operation: TRAORI with rotary words or with the tool vector A3= B3= C3=, ORIAXES or ORIVECT as the control shall join blocks;
+/// or joint coordinates without a transformation.
+void write_operation(GCodeWriter& out, const NcProgram& program, const NcDialect& dialect) {
   const NcHeader& header = program.header;
-  if (header.work_offset > kLastOffset) throw UsageError("dialect", "siemens", "has work offsets 1 to 99");
   const bool tip = program.positions != NcPositions::kJoint;
-  GCodeWriter out(program, dialect, {"; ", "", false, {"A3=", "B3=", "C3="}});
-  out.comment(safe_comment("PROGRAM " + header.program));
-  for (const std::string& line : header_comments(header)) out.comment(line);
+  const std::string coolant = coolant_words(header);
+  out.operation(program);
   const auto retract = [&] {
     // Without frames and without the tool's length: Z of the machine itself, not of the part.
     std::string words = "SUPA G0 Z";
@@ -292,6 +290,7 @@ std::string write_siemens(const NcProgram& program, const NcDialect& dialect) {
   // The rotary axes turn before TRAORI: afterwards the control would hold the tip where it is meanwhile.
   out.start_rotary();
   if (const std::string spindle = spindle_words(header); !spindle.empty()) out.block(spindle);
+  if (!coolant.empty()) out.block(coolant);
   if (tip) tool_centre_on(out, program);
   if (dialect.smoothing_mm > 0.0) out.block(smoothing(dialect));
   // F is the feed of the tip, not of tip and rotary axes together.
@@ -306,8 +305,18 @@ std::string write_siemens(const NcProgram& program, const NcDialect& dialect) {
   });
   if (tip) out.block("TRAFOOF");
   retract();
+  if (!coolant.empty()) out.block("M9");
   out.block("G94 M5");
   out.end_rotary();
+}
+
+/// As write_nc, for operations that passed its checks.
+std::string write_siemens(std::span<const NcProgram> operations, const NcDialect& dialect) {
+  const NcHeader& header = operations.front().header;
+  if (header.work_offset > kLastOffset) throw UsageError("dialect", "siemens", "has work offsets 1 to 99");
+  GCodeWriter out(operations, dialect, {"; ", "", false, {"A3=", "B3=", "C3="}});
+  out.comment(safe_comment("PROGRAM " + header.program));
+  for (const NcProgram& operation : operations) write_operation(out, operation, dialect);
   out.block("M30");
   return out.take();
 }

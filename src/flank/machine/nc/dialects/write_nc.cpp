@@ -59,10 +59,26 @@ void check_program(const NcProgram& program) {
 
 }  // namespace
 
-std::string write_nc(const NcProgram& program, const NcDialect& dialect) {
+std::string write_nc(std::span<const NcProgram> operations, const NcDialect& dialect) {
   check_decimals(dialect);
-  check_program(program);
-  return row_of(dialect.language).write(program, dialect);
+  if (operations.empty()) throw UsageError("program: has no operations");
+  const NcProgram& first = operations.front();
+  for (std::size_t k = 0; k < operations.size(); ++k) {
+    const NcProgram& p = operations[k];
+    check_program(p);
+    if (p.positions != first.positions || p.join != first.join || p.feed_mode != first.feed_mode ||
+        p.rotary != first.rotary || p.header.work_offset != first.header.work_offset)
+      throw InternalError("operations of one program that are stated in different ways");
+    const std::optional<NcOperation>& of = p.header.operation;
+    if (operations.size() > 1 &&
+        (!of || of->number != static_cast<int>(k) + 1 || of->count != static_cast<int>(operations.size())))
+      throw InternalError("operations of a program that are not counted in their order");
+  }
+  return row_of(dialect.language).write(operations, dialect);
+}
+
+std::string write_nc(const NcProgram& program, const NcDialect& dialect) {
+  return write_nc(std::span(&program, 1), dialect);
 }
 
 }  // namespace flank::internal

@@ -44,6 +44,8 @@ void ProgramBuilder::comment(std::string_view text, bool upper) {
   text = trimmed(text);
   if (text == kEndOfStrip) {
     strip_ = -1;
+  } else if (const auto operation = read_operation_comment(text)) {
+    begin_operation(*operation);
   } else if (auto strip = read_strip_comment(text)) {
     // Kinds of strips are words in lower case everywhere else (Path, the judge's report); a dialect that writes its
     // comments in upper case must not make them other kinds.
@@ -61,6 +63,44 @@ void ProgramBuilder::comment(std::string_view text, bool upper) {
     // Comments of others are free text: what says nothing of ours is no fault.
     (void)read_header_comment(text, program_.header);
   }
+}
+
+void ProgramBuilder::end_operation() {
+  const NcOperation& last = *program_.header.operation;
+  if (program_.moves.empty()) place_.refuse("operation " + std::to_string(last.number) + " has no moves");
+  done_.push_back(std::move(program_));
+}
+
+// An operation must be one to enter the program at: what it needs, it states. What the control does with a word stays as it was (units,
+// planes, tool-centre control, compensation), for the program is run from its beginning, too.
+void ProgramBuilder::begin_operation(const NcOperation& operation) {
+  const std::string name = program_.header.program;
+  if (program_.header.operation) {
+    if (operation.number != program_.header.operation->number + 1 ||
+        operation.count != program_.header.operation->count)
+      place_.refuse("operation " + std::to_string(operation.number) + " of " + std::to_string(operation.count) +
+                    " follows operation " + std::to_string(program_.header.operation->number) + " of " +
+                    std::to_string(program_.header.operation->count));
+    end_operation();
+  } else if (!program_.moves.empty() || operation.number != 1) {
+    place_.refuse("operation " + std::to_string(operation.number) +
+                  " begins where operation 1 is expected, before any move");
+  }
+  program_ = NcProgram{};
+  program_.rotary = dialect_.rotary;
+  program_.header.program = name;
+  program_.header.operation = operation;
+  strips_.clear();
+  strip_ = -1;
+  forget_position();
+  rotary_ = rotary_before_ = {};
+  feed_.reset();
+  motion_.reset();
+  modes_ = {};
+  called_.reset();
+  called_name_.clear();
+  turns_per_minute_ = 0.0;
+  by_vector_ = cut_ = turns_ = false;
 }
 
 void ProgramBuilder::unit(double millimetres, double feed_millimetres) {
@@ -306,11 +346,14 @@ std::int32_t ProgramBuilder::present_modes() {
   return static_cast<std::int32_t>(program_.modes.size()) - 1;
 }
 
-NcProgram ProgramBuilder::finish() {
+std::vector<NcProgram> ProgramBuilder::finish() {
   place_.line = 0;  // what is missing is missing in the file as a whole
   if (!ended_) place_.refuse("the program has no end");
+  if (const auto& last = program_.header.operation; last && last->number != last->count)
+    place_.refuse("its last operation is " + std::to_string(last->number) + " of " + std::to_string(last->count));
   if (program_.moves.empty()) place_.refuse("the program has no moves");
-  return std::move(program_);
+  done_.push_back(std::move(program_));
+  return std::move(done_);
 }
 
 }  // namespace flank::internal

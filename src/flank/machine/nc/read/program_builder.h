@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "flank/machine/nc/dialect.h"
 #include "flank/machine/nc/read/nc_lines.h"
@@ -69,7 +70,8 @@ class ProgramBuilder {
   /// The word that ends a program. Anything but comments after it is refused.
   void end_program() { ended_ = true; }
   [[nodiscard]] bool ended() const { return ended_; }
-  [[nodiscard]] NcProgram finish();
+  /// The program's operations in their order, each a program; one where no comment of ours begins an operation.
+  [[nodiscard]] std::vector<NcProgram> finish();
 
  private:
   struct Block {
@@ -79,6 +81,8 @@ class ProgramBuilder {
     bool rapid = false, reference = false, motion = false;
   };
 
+  void begin_operation(const NcOperation& operation);
+  void end_operation();
   void go_to_reference();
   void apply_words();
   void apply_vector();
@@ -94,6 +98,7 @@ class ProgramBuilder {
   NcPlace place_;
   NcDialect dialect_;
   NcProgram program_;
+  std::vector<NcProgram> done_;  ///< the operations before it
   Block block_;
   std::map<std::string, std::int32_t> strips_;  ///< by what their comment says
   std::int32_t strip_ = -1;

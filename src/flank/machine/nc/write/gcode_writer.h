@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -20,8 +21,11 @@ struct GCodeStyle {
 /// Writes blocks one after the other. Motion words and feeds are modal: they are written where they change.
 class GCodeWriter {
  public:
-  /// Both must outlive this.
-  GCodeWriter(const NcProgram& program, const NcDialect& dialect, GCodeStyle style);
+  /// Both must outlive this. Begins with the first of the operations.
+  GCodeWriter(std::span<const NcProgram> operations, const NcDialect& dialect, GCodeStyle style);
+
+  /// Goes on with this operation: its comments, and of several a number to enter the program at ("N2") in its first block.
+  void operation(const NcProgram& program);
 
   /// A line as it stands, without a number.
   void raw(std::string_view line);
@@ -53,16 +57,19 @@ class GCodeWriter {
   void move(const NcMove& move);
   void feed(const NcMove& move);
 
-  const NcProgram& program_;
+  const NcProgram* program_;
   const NcDialect& dialect_;
   GCodeStyle style_;
   std::string text_;
-  long number_ = 0;
+  long number_ = 0, first_number_ = 0;
+  int enter_ = 0;  ///< number of the operation that the next block begins; 0: none
   const char* motion_ = "";
   std::string feed_;
 };
 
 /// " S5000 M3" of the header; empty without a spindle.
 [[nodiscard]] std::string spindle_words(const NcHeader& header);
+/// "M8" or "M7" of the header; empty where the coolant is off.
+[[nodiscard]] std::string coolant_words(const NcHeader& header);
 
 }  // namespace flank::internal

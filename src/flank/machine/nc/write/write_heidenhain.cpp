@@ -24,17 +24,34 @@ std::string program_name(const std::string& name) {
 
 class HeidenhainWriter {
  public:
-  HeidenhainWriter(const NcProgram& program, const NcDialect& dialect)
-      : program_(program), dialect_(dialect), style_{dialect.decimal_comma ? ',' : '.', true} {
+  HeidenhainWriter(std::span<const NcProgram> operations, const NcDialect& dialect)
+      : operations_(operations),
+        program_(&operations.front()),
+        dialect_(dialect),
+        style_{dialect.decimal_comma ? ',' : '.', true} {
     // The control takes coordinates with a sign; feeds, speeds and tolerances have none.
     unsigned_ = style_;
     unsigned_.plus = false;
-    text_.reserve(1000 + kBytesOfMove * program.moves.size());
+    std::size_t moves = 0;
+    for (const NcProgram& operation : operations) moves += operation.moves.size();
+    text_.reserve(1000 * operations.size() + kBytesOfMove * moves);
   }
 
   std::string write() {
-    const std::string name = program_name(program_.header.program) + " MM";
+    const std::string name = program_name(program_->header.program) + " MM";
     block("BEGIN PGM " + name);
+    for (const NcProgram& operation : operations_) {
+      program_ = &operation;
+      feed_.clear();
+      write_operation();
+    }
+    block("M30");
+    block("END PGM " + name);
+    return std::move(text_);
+  }
+
+ private:
+  void write_operation() {
     // Rotary axes first, in the air and without tool-centre control: switched on before, the tip would be held in
     // place and the linear axes would run after it.
     header();
@@ -44,16 +61,13 @@ class HeidenhainWriter {
     tool_centre(false);
     // Away from the part before the spindle stops.
     retract();
+    if (!program_->header.coolant.empty()) block("M9");
     block("M5");
-    if (program_.end_rotary) rotary_block(program_.end_rotary->x(), program_.end_rotary->y());
-    block("M30");
-    block("END PGM " + name);
-    return std::move(text_);
+    if (program_->end_rotary) rotary_block(program_->end_rotary->x(), program_->end_rotary->y());
   }
 
- private:
   /// M128 always runs the rotary axes linearly: only the function can say that the tool turns on a great circle.
-  [[nodiscard]] bool function() const { return dialect_.function_tcpm || program_.join == NcJoin::kGreatCircle; }
+  [[nodiscard]] bool function() const { return dialect_.function_tcpm || program_->join == NcJoin::kGreatCircle; }
 
   void begin() { (text_ += std::to_string(number_++)) += ' '; }
   void block(std::string_view words) {
@@ -62,7 +76,7 @@ class HeidenhainWriter {
   }
 
   void header() {
-    const NcHeader& h = program_.header;
+    const NcHeader& h = program_->header;
     for (const std::string& line : header_comments(h)) block("; " + line);
     // Wherever the tool stands, and whatever the last program has left: nothing turns before it is out of the way.
     tool_centre(false);
@@ -73,6 +87,7 @@ class HeidenhainWriter {
     block("CYCL DEF 247 Q339=" + std::to_string(h.work_offset));
     if (dialect_.smoothing_mm > 0.0) tolerance();
     if (h.spindle_rpm > 0.0) block("M3");
+    if (!h.coolant.empty()) block(h.coolant == "mist" ? "M7" : "M8");
     // Rotary axes take the shorter way, which is what the unwound values of our blocks mean.
     block("M126");
   }
@@ -102,13 +117,13 @@ class HeidenhainWriter {
     else if (!function())
       block("M128");
     else
-      block(program_.join == NcJoin::kGreatCircle ? "FUNCTION TCPM F TCP AXIS POS PATHCTRL VECTOR"
-                                                  : "FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS");
+      block(program_->join == NcJoin::kGreatCircle ? "FUNCTION TCPM F TCP AXIS POS PATHCTRL VECTOR"
+                                                   : "FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS");
   }
 
   void rotary(double first, double second) {
-    append_decimal((text_ += ' ') += program_.rotary[0], first, dialect_.angle_decimals, style_);
-    append_decimal((text_ += ' ') += program_.rotary[1], second, dialect_.angle_decimals, style_);
+    append_decimal((text_ += ' ') += program_->rotary[0], first, dialect_.angle_decimals, style_);
+    append_decimal((text_ += ' ') += program_->rotary[1], second, dialect_.angle_decimals, style_);
   }
   void rotary_block(double first, double second) {
     begin();
@@ -117,24 +132,24 @@ class HeidenhainWriter {
     text_ += " R0 FMAX\n";
   }
   void rotary_of(const NcMove& m) {
-    if (program_.positions != NcPositions::kTipVector) rotary_block(m.orientation.x(), m.orientation.y());
+    if (program_->positions != NcPositions::kTipVector) rotary_block(m.orientation.x(), m.orientation.y());
   }
   /// The angles from which the path begins: where blocks state tool vectors, they decide which solution the control
   /// takes.
   void start_rotary() {
-    if (program_.positions == NcPositions::kTipVector && program_.start_rotary)
-      rotary_block(program_.start_rotary->x(), program_.start_rotary->y());
+    if (program_->positions == NcPositions::kTipVector && program_->start_rotary)
+      rotary_block(program_->start_rotary->x(), program_->start_rotary->y());
     else
-      rotary_of(program_.moves.front());
+      rotary_of(program_->moves.front());
   }
 
   void moves() {
     std::int32_t strip = -1;
-    for (std::size_t i = 0; i < program_.moves.size(); ++i) {
-      const NcMove& m = program_.moves[i];
+    for (std::size_t i = 0; i < program_->moves.size(); ++i) {
+      const NcMove& m = program_->moves[i];
       if (m.strip != strip)
         block("; " + (m.strip < 0 ? std::string(kEndOfStrip)
-                                  : strip_comment(program_.strips[static_cast<std::size_t>(m.strip)])));
+                                  : strip_comment(program_->strips[static_cast<std::size_t>(m.strip)])));
       strip = m.strip;
       // The machine leaves its reference position anew: as at the beginning, axes turn without tool-centre control.
       if (!m.joined && i > 0) {
@@ -161,7 +176,7 @@ class HeidenhainWriter {
     text_ += 'L';
     axes(m, 0, 1);
     text_ += " FMAX\n";
-    if (program_.positions == NcPositions::kTipVector) return move(m);
+    if (program_->positions == NcPositions::kTipVector) return move(m);
     begin();
     text_ += 'L';
     axes(m, 2, 2);
@@ -170,7 +185,7 @@ class HeidenhainWriter {
 
   void move(const NcMove& m) {
     static constexpr std::array<std::string_view, 3> kVector = {" TX", " TY", " TZ"};
-    const bool vector = program_.positions == NcPositions::kTipVector;
+    const bool vector = program_->positions == NcPositions::kTipVector;
     begin();
     text_ += vector ? "LN" : "L";
     axes(m, 0, 2);
@@ -190,13 +205,14 @@ class HeidenhainWriter {
   /// F is modal and FMAX is not: the last F holds again after a rapid block, so only a change is written.
   void feed(const NcMove& m) {
     std::string feed = " F";
-    append_short_decimal(feed, m.feed, nc_feed_decimals(program_.feed_mode, m.feed, dialect_), unsigned_);
+    append_short_decimal(feed, m.feed, nc_feed_decimals(program_->feed_mode, m.feed, dialect_), unsigned_);
     if (feed == feed_) return;
     text_ += feed;
     feed_ = std::move(feed);
   }
 
-  const NcProgram& program_;
+  std::span<const NcProgram> operations_;
+  const NcProgram* program_;
   const NcDialect& dialect_;
   NcNumberStyle style_, unsigned_;
   std::string text_, feed_;
@@ -205,13 +221,13 @@ class HeidenhainWriter {
 
 }  // namespace
 
-std::string write_heidenhain(const NcProgram& program, const NcDialect& dialect) {
-  if (program.feed_mode == NcFeedMode::kInverseTime)
+std::string write_heidenhain(std::span<const NcProgram> operations, const NcDialect& dialect) {
+  if (operations.front().feed_mode == NcFeedMode::kInverseTime)
     throw UsageError("dialect", "heidenhain", "has no inverse time; expected a feed in mm/min");
-  if (program.positions == NcPositions::kJoint)
+  if (operations.front().positions == NcPositions::kJoint)
     throw UsageError("dialect", "heidenhain",
                      "always compensates the tool's length; expected programs of the controlled point");
-  return HeidenhainWriter(program, dialect).write();
+  return HeidenhainWriter(operations, dialect).write();
 }
 
 }  // namespace flank::internal

@@ -1,0 +1,96 @@
+// Which way up a part is put: rotary joints that need not move stand still, and a part is clamped as it is said to be.
+#include "flank/machine/setup_search.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "flank/error.h"
+#include "flank/machine/model/machine_file.h"
+
+namespace flank::internal {
+namespace {
+
+constexpr double kRadians = std::numbers::pi / 180.0;
+
+/// Once round a pocket with drafted walls: the axis leans by 10 degrees outwards, all the way.
+std::vector<Pose> round_a_pocket() {
+  std::vector<Pose> poses;
+  for (int k = 0; k <= 144; ++k) {
+    const double a = 2.5 * k * kRadians;
+    const Vec3 out(std::cos(a), std::sin(a), 0.0);
+    poses.push_back({15.0 * out, std::sin(10.0 * kRadians) * out + std::cos(10.0 * kRadians) * Vec3::UnitZ()});
+  }
+  return poses;
+}
+
+/// How much a rotary joint turns from its lowest to its highest angle, radians; the one next to the tool or to the work.
+double range_of(const Machine& machine, const WorkSetup& setup, const std::vector<Pose>& poses, std::size_t rotary) {
+  const Kinematics kinematics(machine, machine.tool_length);
+  std::vector<MachinePose> placed;
+  for (const Pose& p : poses) placed.push_back({setup.to_work(p), !placed.empty()});
+  const JointChoice choice = choose_joints(machine, kinematics, placed);
+  double low = 1e9, high = -1e9;
+  for (const JointValues& q : choice.joints) {
+    const double at = q[kinematics.rotary_joints()[rotary]];
+    low = std::min(low, at);
+    high = std::max(high, at);
+  }
+  return high - low;
+}
+
+class SetupSearchOn : public ::testing::TestWithParam<const char*> {
+ protected:
+  Machine machine_ = read_machine(GetParam());
+  Kinematics kinematics_{machine_, machine_.tool_length};
+};
+
+TEST_P(SetupSearchOn, KeepsAJointStillThatNeedNotMove) {
+  const FoundSetup found = search_setup(machine_, kinematics_, {.poses = round_a_pocket()});
+  ASSERT_TRUE(found.setup) << found.reason;
+  EXPECT_LT(range_of(machine_, *found.setup, round_a_pocket(), 1), 1e-6);
+  EXPECT_NEAR(range_of(machine_, *found.setup, round_a_pocket(), 0), 2.0 * std::numbers::pi, 0.01);
+}
+
+TEST_P(SetupSearchOn, DoesNotCountWhatLinksTurn) {
+  SetupSearch search{.poses = round_a_pocket()};
+  search.cutting.assign(search.poses.size(), true);
+  // Before and after: upright, as a link is.
+  for (const std::size_t at : {std::size_t{0}, search.poses.size()}) {
+    search.poses.insert(search.poses.begin() + static_cast<std::ptrdiff_t>(at), Pose{Vec3(0, 0, 60), Vec3::UnitZ()});
+    search.cutting.insert(search.cutting.begin() + static_cast<std::ptrdiff_t>(at), false);
+  }
+  const FoundSetup found = search_setup(machine_, kinematics_, search);
+  ASSERT_TRUE(found.setup) << found.reason;
+  EXPECT_LT(range_of(machine_, *found.setup, round_a_pocket(), 1), 1e-6);
+}
+
+TEST_P(SetupSearchOn, PutsThePartAsItIsClamped) {
+  // Lying on its side, so that nothing else would bring it upright.
+  const Vec3 up = Vec3(0.0, -0.6, 0.8);
+  const Eigen::Matrix3d lay = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), up).toRotationMatrix();
+  SetupSearch search;
+  for (const Pose& p : round_a_pocket()) search.poses.push_back({lay * p.tip + Vec3(3.0, 4.0, 5.0), lay * p.axis});
+  search.clamping = {.up = up, .centred = Vec3(3.0, 4.0, 5.0)};
+  const FoundSetup found = search_setup(machine_, kinematics_, search);
+  ASSERT_TRUE(found.setup) << found.reason;
+  EXPECT_LT((found.setup->rotation() * up - machine_.tool_axis).norm(), 1e-5);
+  // The point is on the axis of the joint that carries the part, to the micrometres of a set-up that people type.
+  const Joint& carries = machine_.joints[kinematics_.rotary_joints()[0]];
+  const Vec3 at = found.setup->to_work({Vec3(3.0, 4.0, 5.0), up}).tip - carries.point;
+  EXPECT_LT((at - at.dot(carries.direction) * carries.direction).norm(), 2e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Tables, SetupSearchOn, ::testing::Values("linuxcnc-xyzac-trt", "fanuc-ac", "siemens-ac"));
+
+TEST(SetupSearchOfHeads, HasNoTableToCentreOn) {
+  const Machine machine = read_machine("heidenhain-head-head-ca");
+  const Kinematics kinematics(machine, machine.tool_length);
+  SetupSearch search{.poses = round_a_pocket()};
+  search.clamping = {.up = Vec3::UnitZ(), .centred = Vec3(0.0, 0.0, 0.0)};
+  EXPECT_THROW((void)search_setup(machine, kinematics, search), UsageError);
+}
+
+}  // namespace
+}  // namespace flank::internal
