@@ -21,7 +21,7 @@ Subcommand add_redesign(CLI::App& parser) {
   app->add_option("-o,--output", *folder, "Folder for the new part, the tool, its motion and the tables")->required();
   app->footer(
       "Example: flank redesign blade.step --face F1 --weight le=10,root=0.2 -o new\n"
-      "Exit 1: no valid solid, not exact, or thinner than asked for; redesign.txt says which.");
+      "Exit 1: no valid solid, not exact, or thinner than required; redesign.txt says which.");
   const auto run = [job, folder](const CommonOptions& common) {
     const Redesign redesign = run_redesign(*job, *folder, terminal_progress(common));
     write_redesign(redesign, *folder);

@@ -96,10 +96,10 @@ Addresses members(const DesignJob& job) {
   return all;
 }
 Addresses members(const BoundJob& job) {
-  const auto& [part, tool, checked, ignored, tolerance, points, gap] = job;
+  const auto& [part, tool, checked, ignored, tolerance, map, points, gap] = job;
   Addresses all;
   add_members(part, all), add_members(tool, all);
-  add(all, checked, ignored, tolerance, points, gap);
+  add(all, checked, ignored, tolerance, map, points, gap);
   return all;
 }
 Addresses members(const CorrectJob& job) {
@@ -126,8 +126,8 @@ Addresses members(const VerifyJob& job) {
 
 template <class Job>
 class Fields : public testing::Test {};
-using Jobs = testing::Types<FitJob, CoverJob, TrochoidJob, VerifyJob, PostJob, DesignJob, BoundJob, CorrectJob,
-                             RedesignJob>;
+using Jobs =
+    testing::Types<FitJob, CoverJob, TrochoidJob, VerifyJob, PostJob, DesignJob, BoundJob, CorrectJob, RedesignJob>;
 TYPED_TEST_SUITE(Fields, Jobs);
 
 TYPED_TEST(Fields, EveryMemberIsInTheTableOnce) {

@@ -34,8 +34,8 @@ inline void randomise(const FieldInfo& info, std::string& value, Random& random)
           "conventional", "both",  "catalogue", "ramp",     "plunge", "keep",    "largest"})
       if (info.accepted.text(word) && random.uniform() < 0.5) value = word;
     if (!info.accepted.text(value))
-      for (const char* word :
-           {"in", "curves", "shape", "any", "quick", "optimal", "plain", "conventional", "both", "ramp", "keep", "largest"})
+      for (const char* word : {"in", "curves", "shape", "any", "quick", "optimal", "plain", "conventional", "both",
+                               "ramp", "keep", "largest"})
         if (info.accepted.text(word)) value = word;
     return;
   }

@@ -4,6 +4,8 @@ import { isDark } from './theme.js';
 const KINDS = {
   plane: ['#b9c7d6', '#5f7185'], cylinder: ['#ecc980', '#96762f'], cone: ['#e3a887', '#94573a'], sphere: ['#d2b0d8', '#7d5a86'],
   torus: ['#9fcbbb', '#477a68'], 'B-spline': ['#8fbde6', '#3b6f9f'], mesh: ['#c4c9cf', '#666f79'], 'not read': ['#e2e4e7', '#3b424a'],
+  // Of flank bound --map.
+  'one pass': ['#56b4e9', '#3585b5'], 'several passes': ['#f0b840', '#b0801c'], 'not by flank': ['#c0561f', '#8f3f16'], 'not examined': ['#e2e4e7', '#3b424a'],
 };
 /** Light and dark colour of each role that a face has in a wheel. */
 const WHEEL = {

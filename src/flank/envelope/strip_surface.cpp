@@ -17,8 +17,8 @@ constexpr double kAim = 0.5;  ///< of what is allowed: a margin, because not eve
 /// The envelope over a stretch.
 FittedSurface envelope_of(const ExactStrip& strip, const Stretch& stretch, double aim) {
   return fitted_surface([&](double u, double v) { return strip.contact(stretch.u(u), stretch.v(v)).point; },
-                SurfaceDirection(breaks_of(strip.motion(), stretch.from_u, stretch.to_u), kFittedDegree),
-                SurfaceDirection(breaks_of(strip.radial(), stretch.from_v, stretch.to_v), kFittedDegree), aim);
+                        SurfaceDirection(breaks_of(strip.motion(), stretch.from_u, stretch.to_u), kFittedDegree),
+                        SurfaceDirection(breaks_of(strip.radial(), stretch.from_v, stretch.to_v), kFittedDegree), aim);
 }
 
 /// The largest stretch whose surface is true, and that surface: what a fit does not bring near enough is cut off, and the rest fitted
@@ -73,7 +73,8 @@ StripSurface strip_surface(const StripMotion& strip, const RadialFunction& radia
   out.name = fmt::format("strip {}", strip.strip);
   add_envelope(exact, limit, aim, out);
   FittedSurface axis = fitted_surface([&](double u, double v) { return exact.jet(u).at(radial.axis_length() * v); },
-                       SurfaceDirection(breaks_of(exact.motion(), 0.0, 1.0), kFittedDegree), SurfaceDirection({0.0, 1.0}, 1), aim);
+                                      SurfaceDirection(breaks_of(exact.motion(), 0.0, 1.0), kFittedDegree),
+                                      SurfaceDirection({0.0, 1.0}, 1), aim);
   out.axis_deviation_mm = axis.deviation_mm;
   out.axis = std::move(axis.surface);
   if (!out.has_envelope()) return out;

@@ -213,8 +213,7 @@ Runner with_last_digits(const Runner& winner, const std::vector<SurfaceSample>& 
   // A given tool was lifted out of all overcut, at the price of what a lift leaves everywhere: a few digits of it are worth more.
   const FitDraft& draft = winner.polished.draft;
   const double none = draft.free_tool ? 0.0 : kDigitsShare * draft.targets.front()->diagonal();
-  const bool deeper =
-      exact.polished.estimate.overcut_mm > std::max(winner.polished.estimate.overcut_mm, none);
+  const bool deeper = exact.polished.estimate.overcut_mm > std::max(winner.polished.estimate.overcut_mm, none);
   return deeper || (winner.enough && !exact.enough) ? winner : exact;
 }
 

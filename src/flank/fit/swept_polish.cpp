@@ -82,8 +82,7 @@ Polished last_digits(const Polished& polished, const std::vector<SurfaceSample>&
   constexpr double kNearlyCovered = 0.98;  // by the samples: what misses more has something else to mend first
   const double size = polished.draft.targets.front()->diagonal();
   const CoverageEstimate& estimate = polished.estimate;
-  if (stopping() || estimate.at_tolerance < kNearlyCovered || estimate.rms_mm > kEnvelope * size)
-    return polished;
+  if (stopping() || estimate.at_tolerance < kNearlyCovered || estimate.rms_mm > kEnvelope * size) return polished;
   const std::vector<FacePoint> points = target_points(polished.draft, kMean.points_per_side, reach_of(options));
   Polished best = polished, trial = polished;
   for (const bool last : {false, true}) {

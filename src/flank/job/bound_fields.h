@@ -25,7 +25,13 @@ void visit_fields(Job& job, Visitor&& visit) {
         job.tool.spec);
   visit(FieldInfo{"axis_length", "mm", "", "Axis length of a family's tool", kLength}, job.tool.axis_length_mm);
   visit(FieldInfo{"tolerance", "mm", "", kToleranceHelp, kLength}, job.tolerance_mm);
-  visit(FieldInfo{"points", "", "", "About how many points of each face get a bound of the longest contact", kPoints},
+  visit(FieldInfo{"map", "", "",
+                  "Examine every face of the part: one pass, several, or not by flank. With -o: map.json and map.html",
+                  kAny, Spelling::kFlag},
+        job.map);
+  visit(FieldInfo{"points", "", "",
+                  "About how many points of each face, with --map of the part, get a bound of the longest contact",
+                  kPoints},
         job.points);
   visit(FieldInfo{"gap", "", "", "Accept a bound that is at most this share above the contact found there", kGap},
         job.gap);

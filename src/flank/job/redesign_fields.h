@@ -26,10 +26,11 @@ void visit_fields(Job& job, Visitor&& visit) {
   visit(FieldInfo{"axis_length", "mm", "",
                   "Length of the tool's axis, tip centre to upper end. Default: as the face needs", kLength},
         job.tool.axis_length_mm);
-  visit(FieldInfo{"weight", "", "",
-                  "How much deviation near a border counts, as le=10,root=0.2: le, te, root, tip, or a neighbouring face "
-                  "(F7=3). Elsewhere: 1"},
-        job.weight);
+  visit(
+      FieldInfo{"weight", "", "",
+                "How much deviation near a border counts, as le=10,root=0.2: le, te, root, tip, or a neighbouring face "
+                "(F7=3). Elsewhere: 1"},
+      job.weight);
   visit(FieldInfo{"thickness_min", "mm", "",
                   "The blade gets nowhere thinner than this, and where it is thinner already, no thinner. Default: any",
                   kLength},

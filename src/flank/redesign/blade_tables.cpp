@@ -15,7 +15,7 @@ constexpr double kSampleShare = 1.0 / 60.0;  ///< of the square root of the area
 constexpr double kFacing = -0.3;             ///< cosine between two normals that look at each other, at most
 constexpr double kFarShare = 1.0;            ///< of the part's size: nothing farther is opposite
 constexpr int kStations = 80, kScan = 60, kHalvings = 50;
-constexpr double kOnFaceShare = 1e-7;        ///< of the size: a point of the surface that is so near to the face is on it
+constexpr double kOnFaceShare = 1e-7;  ///< of the size: a point of the surface that is so near to the face is on it
 constexpr double kNeighbourShare = 5e-3;
 
 double degrees_between(const Vec3& a, const Vec3& b) {
@@ -81,8 +81,10 @@ Section section_at(const Part& part, const ChangedFace& face, const Opposite& op
   out.height_mm = low + 0.01 * percent * (high - low);
   const SurfaceJet middle =
       surface.jet(0.5 * (surface.u_first() + surface.u_last()), 0.5 * (surface.v_first() + surface.v_last()));
-  const bool along_v = std::abs(middle.dv.normalized().dot(face.span)) > std::abs(middle.du.normalized().dot(face.span));
-  const double from = along_v ? surface.u_first() : surface.v_first(), to = along_v ? surface.u_last() : surface.v_last();
+  const bool along_v =
+      std::abs(middle.dv.normalized().dot(face.span)) > std::abs(middle.du.normalized().dot(face.span));
+  const double from = along_v ? surface.u_first() : surface.v_first(),
+               to = along_v ? surface.u_last() : surface.v_last();
   double squares = 0.0;
   for (int k = 0; k <= kStations; ++k) {
     const std::optional<Vec3> p =
@@ -178,7 +180,10 @@ FaceTables face_tables(const Part& part, const ChangedFace& face, const Opposite
   parallel_for(samples.size(), [&](std::size_t k) {
     const SurfaceSample& sample = samples[k];
     const Footpoint next = face.surface.target->closest(sample.point);
-    out.points[k] = {sample.point, sample.normal, sample.area, -next.distance,
+    out.points[k] = {sample.point,
+                     sample.normal,
+                     sample.area,
+                     -next.distance,
                      opposite.thickness(face.index, sample.point, sample.normal, false),
                      opposite.thickness(face.index, next.point, next.normal, true)};
     gaps[k] = {opposite.gap(face.index, sample.point, sample.normal, false),

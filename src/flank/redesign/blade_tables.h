@@ -31,10 +31,11 @@ struct DistanceFigure {
 
 /// One place of a face.
 struct DeviationPoint {
-  Vec3 point, normal;        ///< of the old face; the normal points to the tool
+  Vec3 point, normal;  ///< of the old face; the normal points to the tool
   double area_mm2 = 0.0;
   double deviation_mm = 0.0;  ///< > 0: the new surface lies outside, material is added
-  double thickness_before_mm = 0.0, thickness_after_mm = 0.0;  ///< to the opposite face of the same solid; 0: there is none
+  double thickness_before_mm = 0.0,
+         thickness_after_mm = 0.0;  ///< to the opposite face of the same solid; 0: there is none
 };
 
 struct SectionPoint {
@@ -44,12 +45,13 @@ struct SectionPoint {
 
 /// The section of a face with a plane across its span.
 struct Section {
-  double height_percent = 0.0, height_mm = 0.0;  ///< from root; along the span, from the origin
-  std::vector<SectionPoint> points;              ///< in order, from border to border
-  double chord_mm = 0.0;                         ///< between its ends
-  double largest_mm = 0.0, rms_mm = 0.0;         ///< of the deviation
+  double height_percent = 0.0, height_mm = 0.0;              ///< from root; along the span, from the origin
+  std::vector<SectionPoint> points;                          ///< in order, from border to border
+  double chord_mm = 0.0;                                     ///< between its ends
+  double largest_mm = 0.0, rms_mm = 0.0;                     ///< of the deviation
   double thickest_before_mm = 0.0, thickest_after_mm = 0.0;  ///< 0: nothing opposite
-  double leading_radius_mm = 0.0, trailing_radius_mm = 0.0;  ///< of the neighbours at its ends, which stay as they are; 0: none or flat
+  double leading_radius_mm = 0.0,
+         trailing_radius_mm = 0.0;  ///< of the neighbours at its ends, which stay as they are; 0: none or flat
   double leading_kink_before_deg = 0.0, leading_kink_after_deg = 0.0;  ///< between the face and that neighbour
   double trailing_kink_before_deg = 0.0, trailing_kink_after_deg = 0.0;
 };
@@ -78,8 +80,8 @@ class Opposite {
   struct Wall {
     int index = 0, solid = -1;
     std::string id;
-    std::unique_ptr<Target> target;        ///< as it was
-    const Target* changed = nullptr;       ///< as it is after; null: as it was
+    std::unique_ptr<Target> target;   ///< as it was
+    const Target* changed = nullptr;  ///< as it is after; null: as it was
   };
   std::vector<Wall> walls_;
   double size_mm_ = 0.0;

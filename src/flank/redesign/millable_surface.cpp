@@ -14,7 +14,7 @@ namespace flank::internal {
 namespace {
 
 constexpr double kBorderShare = 1.0 / 200.0;  ///< spacing of the border points, of the diagonal
-constexpr double kPlaceShare = 1.0 / 50.0;   ///< of the samples of the face
+constexpr double kPlaceShare = 1.0 / 50.0;    ///< of the samples of the face
 constexpr int kPoses = 200;
 /// How far past the borders the surface reaches, as shares of its range; what is tried one after the other.
 constexpr std::array<double, 3> kMargins = {0.015, 0.03, 0.06};
@@ -22,9 +22,7 @@ constexpr std::array<double, 3> kMargins = {0.015, 0.03, 0.06};
 struct Range {
   double low = 1e300, high = -1e300;
   void add(double x) { low = std::min(low, x), high = std::max(high, x); }
-  [[nodiscard]] Range wider(double share) const {
-    return {low - share * (high - low), high + share * (high - low)};
-  }
+  [[nodiscard]] Range wider(double share) const { return {low - share * (high - low), high + share * (high - low)}; }
   [[nodiscard]] double at(double share) const { return low + share * (high - low); }
 };
 
@@ -54,15 +52,15 @@ double largest_c(const RuledMotion& motion, const RadialFunction& radial, int si
 
 /// The envelope over these ranges.
 MillableSurface over_range(const RuledMotion& motion, const RadialFunction& radial, int side, const Range& t,
-                        const Range& s, double aim_mm) {
+                           const Range& s, double aim_mm) {
   const auto exact = [&](double u, double v) {
     return contact_point(motion.jet(t.at(u)), radial.at(s.at(v)), s.at(v), side);
   };
   const double length = radial.axis_length();
-  FittedSurface fitted = fitted_surface([&](double u, double v) { return exact(u, v).point; },
-                                        SurfaceDirection(breaks_of(motion, t.low, t.high), kFittedDegree),
-                                        SurfaceDirection(breaks_of(radial, s.low / length, s.high / length), kFittedDegree),
-                                        aim_mm);
+  FittedSurface fitted =
+      fitted_surface([&](double u, double v) { return exact(u, v).point; },
+                     SurfaceDirection(breaks_of(motion, t.low, t.high), kFittedDegree),
+                     SurfaceDirection(breaks_of(radial, s.low / length, s.high / length), kFittedDegree), aim_mm);
   MillableSurface out;
   const SurfaceJet middle = fitted.surface.jet(0.5, 0.5);
   // The normal of a contact point looks from the axis to the part.
@@ -85,8 +83,8 @@ std::optional<Vec2> MillableSurface::nearest(const Vec3& p) const {
 
 double MillableSurface::over(const Vec3& p) const { return -target->closest(p).distance; }
 
-std::optional<MillableSurface> millable_surface(const RuledMotion& motion, const RadialFunction& radial, const Target& face,
-                                          double aim_mm, std::string& why) {
+std::optional<MillableSurface> millable_surface(const RuledMotion& motion, const RadialFunction& radial,
+                                                const Target& face, double aim_mm, std::string& why) {
   const Vec3 middle = motion.pose(0.5).at(0.5 * radial.axis_length());
   const int side = contact_side(motion, radial, face.closest(middle).point - middle);
   const std::vector<Vec3> border = face.border_points(kBorderShare * face.diagonal());

@@ -19,7 +19,8 @@ struct MillableSurface {
   std::unique_ptr<Target> target;  ///< of the whole surface, from the tool's side
   double deviation_mm = 0.0;       ///< of the spline from the exact envelope where the face is, at most, by samples
   double largest_c = 0.0;          ///< regularity where the face is (envelope.h), < 1 needed
-  int at_ends = 0;                 ///< places of the face that the first or the last pose is nearest to: it cuts there what the motion leaves
+  int at_ends =
+      0;  ///< places of the face that the first or the last pose is nearest to: it cuts there what the motion leaves
   double used_from_s = 0.0, used_to_s = 0.0;  ///< stretch of the axis that the face needs, mm; the tool ends at 0 and L
   double used_from_t = 0.0, used_to_t = 1.0;  ///< and of the motion
   /// Parameters of the point nearest to p; none: p lies beyond the surface.
@@ -31,6 +32,6 @@ struct MillableSurface {
 /// `aim_mm`: how near the spline is to the exact envelope. None, with the reason in `why`: the envelope ends before the borders of the
 /// face, or is none there.
 [[nodiscard]] std::optional<MillableSurface> millable_surface(const RuledMotion& motion, const RadialFunction& radial,
-                                                        const Target& face, double aim_mm, std::string& why);
+                                                              const Target& face, double aim_mm, std::string& why);
 
 }  // namespace flank::internal

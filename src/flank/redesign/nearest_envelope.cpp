@@ -11,22 +11,26 @@
 #include "flank/fit/model/constrained.h"
 #include "flank/fit/passes.h"
 #include "flank/fit/swept_pass.h"
-#include "flank/surface/ball_touch.h"
 
 namespace flank::internal {
 namespace {
 
 /// Fewer control points than a fit takes: what is left over need not be followed, and a smooth motion is one that another fit of
 /// the answer finds again.
-constexpr SweptPass kNearestPass = {
-    .dead_zone = 0.0, .fairness = 1e-3, .anchor = 1.0, .control_points = 14, .coefficients = 12, .iterations = 40, .points_per_side = 36,
-    .out_of_sight = 0.0};
+constexpr SweptPass kNearestPass = {.dead_zone = 0.0,
+                                    .fairness = 1e-3,
+                                    .anchor = 1.0,
+                                    .control_points = 14,
+                                    .coefficients = 12,
+                                    .iterations = 40,
+                                    .points_per_side = 36,
+                                    .out_of_sight = 0.0};
 /// Of the way: how much more than the face needs a motion runs.
 constexpr double kOverrun = 0.07, kHookShare = 0.04;
 /// Points past the border: how far, of the diagonal, and what all of them weigh beside the face.
 constexpr std::array<double, 2> kPastBorder = {0.02, 0.04};
 constexpr double kPastWeight = 0.02;
-constexpr int kDensePerSide = 90;   ///< of the points at which the limits are held
+constexpr int kDensePerSide = 90;  ///< of the points at which the limits are held
 constexpr int kLawsonRounds = 10, kLawsonIterations = 6;
 /// Of the first pass: so few control points that nothing is left of the waves and slides of the start.
 constexpr int kFewPoints = 10;
@@ -76,7 +80,8 @@ std::vector<Vec3> points_past_border(const FitDraft& one, const ReachLimits& rea
       if (!(out.norm() > 0.0)) continue;
       const Footpoint there = target.track(b + share * target.diagonal() * out.normalized(), foot);
       if (there.location != Location::kExtension) continue;
-      if (is_reachable(target, obstacles, {there.point, there.normal, 0.0, 0.0, 0.0, 0}, reach)) past.push_back(there.point);
+      if (is_reachable(target, obstacles, {there.point, there.normal, 0.0, 0.0, 0.0, 0}, reach))
+        past.push_back(there.point);
     }
   }
   return past;
@@ -109,9 +114,8 @@ std::vector<FacePoint> weighted_points(const NearestProblem& problem, int per_si
 std::vector<double> deviations(const FitDraft& draft, const std::vector<FacePoint>& points) {
   const SweptEstimate swept(draft.motions, draft.tool, kRankingPoses);
   std::vector<double> f(points.size());
-  parallel_for(points.size(), [&](std::size_t k) {
-    f[k] = swept.refine(points[k].point, swept.nearest(points[k].point)).f;
-  });
+  parallel_for(points.size(),
+               [&](std::size_t k) { f[k] = swept.refine(points[k].point, swept.nearest(points[k].point)).f; });
   return f;
 }
 
@@ -135,10 +139,13 @@ FitDraft pass(const NearestProblem& problem, const FitDraft& draft, const FitSta
   if (problem.least.empty()) return run_swept(draft, problem.bounds, stage, points, nullptr);
   FitDraft next;
   const FitState start = start_state(draft, stage, next);
-  const ConstrainedProblem constrained{draft.targets,  draft.obstacles,
+  const ConstrainedProblem constrained{draft.targets,
+                                       draft.obstacles,
                                        next.free_parameters,
-                                       problem.bounds, stage_of(draft, stage),
-                                       points,         weighted_points(problem, kDensePerSide, true)};
+                                       problem.bounds,
+                                       stage_of(draft, stage),
+                                       points,
+                                       weighted_points(problem, kDensePerSide, true)};
   ConstrainedOptions options;
   options.allowed_overcut_mm = kFree;  // the limits are those of the points that hold
   options.band_mm = 10.0 * problem.tolerance_mm;
@@ -215,8 +222,9 @@ FitDraft evenly_run(const FitDraft& draft, double share) {
       const AxisJet jet = old.jet(inside);
       fine.push_back({jet.tip + (t - inside) * jet.tip_d1, (jet.u + (t - inside) * jet.u_d1).normalized()});
       if (i > 0)
-        way.push_back(way.back() + (fine[fine.size() - 1].at(0.5 * old.axis_length) -
-                                    fine[fine.size() - 2].at(0.5 * old.axis_length)).norm());
+        way.push_back(
+            way.back() +
+            (fine[fine.size() - 1].at(0.5 * old.axis_length) - fine[fine.size() - 2].at(0.5 * old.axis_length)).norm());
     }
     std::vector<Pose> poses;
     std::vector<double> times;

@@ -14,19 +14,19 @@ namespace flank::internal {
 using AtPoint = std::function<double(const Vec3&)>;
 
 struct NearestProblem {
-  FitDraft start;              ///< one motion for each face
-  RadiusBounds bounds;         ///< of a free tool
-  ReachLimits reach;           ///< what no ball of the tool gets to does not count, beside obstacles
-  double tolerance_mm = 0.01;  ///< scale of fairness
-  bool largest = false;        ///< the largest weighted deviation is made small; else the weighted mean square
-  std::vector<AtPoint> weight; ///< of each face: how much its deviation counts, > 0
-  std::vector<AtPoint> least;  ///< of each face: the surface may lie so low at most, mm; empty: as low as it likes
+  FitDraft start;               ///< one motion for each face
+  RadiusBounds bounds;          ///< of a free tool
+  ReachLimits reach;            ///< what no ball of the tool gets to does not count, beside obstacles
+  double tolerance_mm = 0.01;   ///< scale of fairness
+  bool largest = false;         ///< the largest weighted deviation is made small; else the weighted mean square
+  std::vector<AtPoint> weight;  ///< of each face: how much its deviation counts, > 0
+  std::vector<AtPoint> least;   ///< of each face: the surface may lie so low at most, mm; empty: as low as it likes
 };
 
 struct NearestEnvelope {
   FitDraft draft;
-  double rms_mm = 0.0, largest_mm = 0.0;    ///< weighted deviation over the points, of what is in reach
-  double violation_mm = 0.0;                ///< by which `least` is missed, at most
+  double rms_mm = 0.0, largest_mm = 0.0;  ///< weighted deviation over the points, of what is in reach
+  double violation_mm = 0.0;              ///< by which `least` is missed, at most
 };
 
 /// Least squares over all control points and, of a free tool, its radii; under hard limits where there are any. For the largest

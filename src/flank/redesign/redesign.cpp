@@ -67,19 +67,20 @@ std::string distance_line(const char* what, const DistanceFigure& figure) {
 
 std::string face_text(const Redesign& redesign, std::size_t k) {
   const FaceTables& face = redesign.faces[k];
-  std::string text = fmt::format(
-      "  {}: the new surface is {:.4f} mm rms off, {:.4f} mm outside and {:.4f} mm inside at most\n", face.id,
-      face.rms_mm, face.highest_mm, -face.lowest_mm);
+  std::string text =
+      fmt::format("  {}: the new surface is {:.4f} mm rms off, {:.4f} mm outside and {:.4f} mm inside at most\n",
+                  face.id, face.rms_mm, face.highest_mm, -face.lowest_mm);
   if (k < redesign.gap_mm.size())
     text += fmt::format("    border    up to {:.4f} mm off the neighbouring faces, which stay as they are\n",
                         redesign.gap_mm[k]);
   text += distance_line("thickness", face.thickness) + distance_line("gap", face.gap);
   text += "    height %   rms mm  largest  thickest before/after   LE radius, kink before/after   TE radius, kink\n";
   for (const Section& s : face.sections)
-    text += fmt::format("    {:7.1f}  {:7.4f}  {:7.4f}  {:10.4f} {:10.4f}   {:9.4f} {:6.2f} {:6.2f}deg   {:8.4f} {:6.2f} {:6.2f}deg\n",
-                        s.height_percent, s.rms_mm, s.largest_mm, s.thickest_before_mm, s.thickest_after_mm,
-                        s.leading_radius_mm, s.leading_kink_before_deg, s.leading_kink_after_deg, s.trailing_radius_mm,
-                        s.trailing_kink_before_deg, s.trailing_kink_after_deg);
+    text += fmt::format(
+        "    {:7.1f}  {:7.4f}  {:7.4f}  {:10.4f} {:10.4f}   {:9.4f} {:6.2f} {:6.2f}deg   {:8.4f} {:6.2f} {:6.2f}deg\n",
+        s.height_percent, s.rms_mm, s.largest_mm, s.thickest_before_mm, s.thickest_after_mm, s.leading_radius_mm,
+        s.leading_kink_before_deg, s.leading_kink_after_deg, s.trailing_radius_mm, s.trailing_kink_before_deg,
+        s.trailing_kink_after_deg);
   return text;
 }
 
@@ -88,8 +89,9 @@ std::string solid_line(const Redesign& redesign) {
     return "  solid       none: " + redesign.not_joined + "; the new faces alone are in face.step\n";
   const CheckedSolids& checked = redesign.checked;
   const char* verdict = redesign.solid_valid() ? "valid" : "NOT valid";
-  return fmt::format("  solid       redesigned.step: {} by the CAD kernel's checker; {} of {} solids closed and valid, {} before\n",
-                     verdict, checked.valid, checked.solids, redesign.solids_before);
+  return fmt::format(
+      "  solid       redesigned.step: {} by the CAD kernel's checker; {} of {} solids closed and valid, {} before\n",
+      verdict, checked.valid, checked.solids, redesign.solids_before);
 }
 
 }  // namespace
@@ -132,14 +134,15 @@ std::string redesign_json(const Redesign& redesign) {
 }
 
 std::string redesign_text(const Redesign& redesign) {
-  std::string text = fmt::format("Nearest surface that one pass leaves exactly, of {} {}\n",
-                                 redesign.job.part.file, redesign.job.part.target_text());
+  std::string text = fmt::format("Nearest surface that one pass leaves exactly, of {} {}\n", redesign.job.part.file,
+                                 redesign.job.part.target_text());
   for (std::size_t k = 0; k < redesign.faces.size(); ++k) text += face_text(redesign, k);
   text += solid_line(redesign);
   const Exactness& exact = redesign.exact;
   if (exact.tolerance_mm > 0.0)
     text += fmt::format(
-        "  exact       its own tool and motion leave {:.2f} % of the new faces within {:.2g} mm (a millionth of the size); "
+        "  exact       its own tool and motion leave {:.2f} % of the new faces within {:.2g} mm (a millionth of the "
+        "size); "
         "deepest cut {:.2g} mm, material left {:.2g} mm at most\n",
         100.0 * exact.share, exact.tolerance_mm, exact.overcut_mm, exact.left_mm);
   if (redesign.job.thickness_min_mm)

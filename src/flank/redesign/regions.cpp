@@ -16,8 +16,8 @@ namespace {
 
 constexpr double kBorderShare = 1.0 / 150.0;  ///< spacing of border points, of the diagonal
 constexpr double kTouchShare = 2e-4;          ///< borders that are nearer than this share of the diagonal are one
-constexpr double kWidthShare = 0.1;           ///< of the square root of the area: how far from a border its factor holds
-constexpr double kAlike = 0.1;                ///< of their radius: edges that differ by less are alike
+constexpr double kWidthShare = 0.1;  ///< of the square root of the area: how far from a border its factor holds
+constexpr double kAlike = 0.1;       ///< of their radius: edges that differ by less are alike
 constexpr int kPoses = 160;
 
 /// Shares of the way and of the axis at which the motion touches a place of the face, 0 to 1 over the face.
@@ -33,7 +33,7 @@ std::vector<Place> places_of(const std::vector<Vec3>& border, const RuledMotion&
     const SweptContact contact = swept.refine(p, swept.nearest(p));
     all.push_back({p, contact.t, contact.s});
   }
-  const auto scale = [&](double Place::* member) {
+  const auto scale = [&](double Place::*member) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const Place& place : all) low = std::min(low, place.*member), high = std::max(high, place.*member);
     for (Place& place : all) place.*member = high > low ? (place.*member - low) / (high - low) : 0.5;
@@ -116,8 +116,8 @@ FaceBorders find_borders(const Part& part, int face, const Target& target, const
   }
   for (std::size_t k = 0; k < sides.size(); ++k) sides[k].radius_mm = median(radii[k]);
   const bool begins = sides[2].radius_mm >= sides[3].radius_mm;
-  borders.edges_alike = std::abs(sides[2].radius_mm - sides[3].radius_mm) <=
-                        kAlike * std::max(sides[2].radius_mm, sides[3].radius_mm);
+  borders.edges_alike =
+      std::abs(sides[2].radius_mm - sides[3].radius_mm) <= kAlike * std::max(sides[2].radius_mm, sides[3].radius_mm);
   borders.root = std::move(sides[0]);
   borders.tip = std::move(sides[1]);
   borders.leading = std::move(sides[begins ? 2 : 3]);

@@ -24,7 +24,7 @@ struct WeightRequest {
 struct BorderSide {
   std::vector<Vec3> points;
   std::vector<std::string> faces;  ///< neighbours along it
-  double radius_mm = 0.0;          ///< typical least radius of curvature of these neighbours there; 0: no neighbour, or flat
+  double radius_mm = 0.0;  ///< typical least radius of curvature of these neighbours there; 0: no neighbour, or flat
 };
 
 /// Root is where the tip of the tool runs, tip where its upper end does; of the other two sides the leading edge is the blunter one.

@@ -71,10 +71,12 @@ FitJob fit_job(const RedesignJob& job) {
 /// Whole faces of a CAD file can be given another surface.
 void require_whole_faces(const Setup& setup, const RedesignJob& job) {
   if (setup.part.is_mesh())
-    throw InputError(job.part.file + ": is a mesh; expected a CAD file (STEP, IGES or BREP), whose faces can be replaced");
+    throw InputError(job.part.file +
+                     ": is a mesh; expected a CAD file (STEP, IGES or BREP), whose faces can be replaced");
   for (const int face : setup.targets)
-    if (setup.part.face_id(face) != "F" + std::to_string(face + 1) || setup.part.faces.size() <= static_cast<std::size_t>(face))
-      throw UsageError("faces", job.part.target_text(), "expected whole faces, as F1,F3; a piece of a face cannot be replaced");
+    if (setup.part.face_id(face) != "F" + std::to_string(face + 1))
+      throw UsageError("faces", job.part.target_text(),
+                       "expected whole faces, as F1,F3; a piece of a face cannot be replaced");
   if (!setup.part.left_out.empty())
     throw InputError(job.part.file + ": faces of it could not be read, so the part cannot be written with another one");
 }
@@ -85,7 +87,8 @@ void require_one_motion_each(const FitSearch& search, const RedesignJob& job) {
     throw InputError(job.part.file + ": no motion of one pass was found on " + job.part.target_text());
   for (const TargetGroup& group : search.targets)
     if (group.indices.size() != 1)
-      throw UsageError("faces", group.faces, "these faces share borders; expected faces apart, each with a pass of its own");
+      throw UsageError("faces", group.faces,
+                       "these faces share borders; expected faces apart, each with a pass of its own");
   std::vector<int> motions(search.targets.size(), 0);
   for (const std::size_t g : search.group_of_motion) ++motions[g];
   for (std::size_t g = 0; g < motions.size(); ++g)
@@ -160,12 +163,14 @@ NearestProblem problem_of(const RedesignJob& job, const Setup& setup, const Sear
         std::make_shared<FaceWeights>(requests, search.borders[k], std::sqrt(search.groups[k]->target->area()));
     problem.weight.push_back([weights](const Vec3& p) { return weights->at(p); });
   }
-  problem.least = thickness_limits(setup, search, job, std::make_shared<Opposite>(setup.part, std::vector<ChangedFace>{}));
+  problem.least =
+      thickness_limits(setup, search, job, std::make_shared<Opposite>(setup.part, std::vector<ChangedFace>{}));
   return problem;
 }
 
 /// The surfaces that these motions leave, or none with the reason: the first face that is not reached.
-std::vector<ChangedFace> surfaces_of(const NearestEnvelope& nearest, const Setup& setup, const Search& search, std::string& why) {
+std::vector<ChangedFace> surfaces_of(const NearestEnvelope& nearest, const Setup& setup, const Search& search,
+                                     std::string& why) {
   std::vector<ChangedFace> changed;
   for (std::size_t k = 0; k < search.groups.size(); ++k) {
     const TargetGroup& group = *search.groups[k];
@@ -213,7 +218,8 @@ NearestEnvelope reaching(NearestProblem problem, const Setup& setup, const Searc
 }
 
 /// Tool and motions as a result of a fit, judged against the faces as they were.
-void add_result(const Setup& setup, const FitJob& job, const Search& search, const NearestEnvelope& nearest, Redesign& out) {
+void add_result(const Setup& setup, const FitJob& job, const Search& search, const NearestEnvelope& nearest,
+                Redesign& out) {
   Result& result = out.result;
   result.job = job;
   result.inputs = input_stamps(job);
@@ -226,7 +232,8 @@ void add_result(const Setup& setup, const FitJob& job, const Search& search, con
   const ClearanceScene scene = make_clearance_scene(setup, job.obstacles, false, result.notes);
   std::vector<StripSurface> surfaces = add_strips(setup.tolerance_mm, search.groups, result);
   judge_result(setup, scene, std::move(surfaces), result, watch);
-  result.notes.emplace_back("a redesign: the verdict is about the face as it was, which this tool and motion leave on purpose");
+  result.notes.emplace_back(
+      "a redesign: the verdict is about the face as it was, which this tool and motion leave on purpose");
 }
 
 /// The new faces into the part; the texts of the files.
@@ -304,7 +311,8 @@ void tell_thickness(const RedesignJob& job, Redesign& out) {
     }
 }
 
-void write_and_check(const std::vector<ChangedFace>& changed, const Setup& setup, const std::string& output, Redesign& out) {
+void write_and_check(const std::vector<ChangedFace>& changed, const Setup& setup, const std::string& output,
+                     Redesign& out) {
   std::error_code error;
   fs::create_directories(output, error);
   if (!fs::is_directory(output)) throw InputError(output + ": is not a folder and cannot be created");

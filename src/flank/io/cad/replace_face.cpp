@@ -36,7 +36,7 @@ namespace {
 
 /// Places at which a border is led over to the new surface, and places between two of them at which it is held against it.
 constexpr int kBorderPoints = 120, kBetween = 4;
-constexpr double kSpareTolerance = 1.02;   ///< of an edge, for what lies between the places
+constexpr double kSpareTolerance = 1.02;    ///< of an edge, for what lies between the places
 constexpr double kLeastToleranceMm = 1e-6;  ///< of an edge
 
 Vec3 vec(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
@@ -124,7 +124,8 @@ std::optional<double> lead_over(const TopoDS_Edge& edge, const Handle(Geom_BSpli
 }
 
 /// The face with another surface and the same borders; none, with the reason in `why`, where that cannot be.
-std::optional<TopoDS_Face> replaced(const TopoDS_Face& old, const NewSurface& wanted, double& gap_mm, std::string& why) {
+std::optional<TopoDS_Face> replaced(const TopoDS_Face& old, const NewSurface& wanted, double& gap_mm,
+                                    std::string& why) {
   why = unusable_border(old);
   if (!why.empty()) return {};
   NewSurface next = wanted;
