@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
+#include <utility>
 
 #include "flank/base/atomic_file.h"
 #include "flank/error.h"
@@ -62,9 +64,10 @@ WheelResult run_wheel(const WheelJob& job, const Progress& progress) {
   progress.step("edges", 0.5);
   const bool fillets = std::any_of(sector.blades.begin(), sector.blades.end(),
                                    [](const WheelBlade& blade) { return !blade.fillets.empty(); });
-  if (fillets) run(fillet_operation(work));
+  if (fillets)
+    if (std::optional<WheelOperation> operation = fillet_operation(work)) run(std::move(*operation));
   if (job.edges) run(edge_operation(work));
-  run(rest_operation(work));
+  if (std::optional<WheelOperation> operation = rest_operation(work)) run(std::move(*operation));
   progress.step("rough", 0.6);
   if (job.rough) run(rough_operation(work));
   progress.step("verify", 0.8);
