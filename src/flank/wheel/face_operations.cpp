@@ -105,11 +105,13 @@ std::optional<WheelOperation> fillet_operation(WheelWork& work) {
 }
 
 WheelOperation edge_operation(WheelWork& work) {
-  return on_faces(work, "50", "edge", [](const WheelBlade& blade) { return blade.edges; }, false);
+  return on_faces(
+      work, "50", "edge", [](const WheelBlade& blade) { return blade.edges; }, false);
 }
 
 std::optional<WheelOperation> rest_operation(WheelWork& work) {
-  return unless_nothing(on_faces(work, "60", "rest", [](const WheelBlade& blade) { return blade.sides(); }, true));
+  return unless_nothing(on_faces(
+      work, "60", "rest", [](const WheelBlade& blade) { return blade.sides(); }, true));
 }
 
 }  // namespace flank::internal
