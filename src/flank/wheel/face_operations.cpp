@@ -60,6 +60,8 @@ Path passes_along(WheelWork& work, const std::string& kind, const Names& faces, 
   return guarded(work, out);
 }
 
+constexpr const char* kNoPass = "no pass has room";
+
 WheelOperation on_faces(WheelWork& work, const std::string& id, const std::string& kind, const FacesOfBlade& which,
                         bool only_rest) {
   WheelOperation operation{.id = id, .kind = kind, .folder = "", .faces = faces_of(work.sector.blades, which)};
@@ -77,10 +79,16 @@ WheelOperation on_faces(WheelWork& work, const std::string& id, const std::strin
                               fmt::format("{} {}", work.job.tolerance_mm, work.job.least_coverage);
   operation = perform(work, operation, decides, [&] {
     Path path = passes_along(work, kind, faces_of(blades, which), only_rest);
-    if (path.strips.empty()) throw InputError("no pass has room");
+    if (path.strips.empty()) throw InputError(kNoPass);
     return judged_path(work, operation.faces, std::move(path), kDraftShare * work.job.least_coverage, Care::kDraft);
   });
   take(work, operation);
+  return operation;
+}
+
+/// What is left is told by place; an operation that has nothing to do lacks nothing.
+std::optional<WheelOperation> unless_nothing(WheelOperation operation) {
+  if (!operation.done && operation.problem == kNoPass) return {};
   return operation;
 }
 
@@ -92,16 +100,18 @@ Names fillets_of(const WheelBlade& blade) {
 
 }  // namespace
 
-WheelOperation fillet_operation(WheelWork& work) { return on_faces(work, "40", "fillet", fillets_of, true); }
+std::optional<WheelOperation> fillet_operation(WheelWork& work) {
+  return unless_nothing(on_faces(work, "40", "fillet", fillets_of, true));
+}
 
 WheelOperation edge_operation(WheelWork& work) {
   return on_faces(
       work, "50", "edge", [](const WheelBlade& blade) { return blade.edges; }, false);
 }
 
-WheelOperation rest_operation(WheelWork& work) {
-  return on_faces(
-      work, "60", "rest", [](const WheelBlade& blade) { return blade.sides(); }, true);
+std::optional<WheelOperation> rest_operation(WheelWork& work) {
+  return unless_nothing(on_faces(
+      work, "60", "rest", [](const WheelBlade& blade) { return blade.sides(); }, true));
 }
 
 }  // namespace flank::internal

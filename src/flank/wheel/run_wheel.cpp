@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
+#include <utility>
 
 #include "flank/base/atomic_file.h"
 #include "flank/error.h"
@@ -36,6 +38,19 @@ void make_folder(const std::string& folder) {
   if (!fs::is_directory(fs::path(folder) / "ops")) throw InputError(folder + ": is not a folder and cannot be created");
 }
 
+/// The whole of what finishes something, its figures and what it leaves, into the wheel's folder.
+void judge(WheelWork& work, WheelResult& result) {
+  // The judge needs memory of its own, and nothing of this.
+  work.fine.reset(), work.coarse.reset(), work.targets.forget();
+  if (work.finish.strips.empty()) return;
+  result.whole = judge_whole(work);
+  result.figures = role_figures(result.roles, result.whole->verify);
+  write_result(*result.whole, work.job.folder);
+  WheelRest rest = rest_of(work, *result.whole);
+  result.rest = std::move(rest.places);
+  if (!rest.mesh.triangles.empty()) write_mesh((fs::path(work.job.folder) / "rest.stl").string(), rest.mesh);
+}
+
 }  // namespace
 
 WheelResult run_wheel(const WheelJob& job, const Progress& progress) {
@@ -62,22 +77,14 @@ WheelResult run_wheel(const WheelJob& job, const Progress& progress) {
   progress.step("edges", 0.5);
   const bool fillets = std::any_of(sector.blades.begin(), sector.blades.end(),
                                    [](const WheelBlade& blade) { return !blade.fillets.empty(); });
-  if (fillets) run(fillet_operation(work));
+  if (fillets)
+    if (std::optional<WheelOperation> operation = fillet_operation(work)) run(std::move(*operation));
   if (job.edges) run(edge_operation(work));
-  run(rest_operation(work));
+  if (std::optional<WheelOperation> operation = rest_operation(work)) run(std::move(*operation));
   progress.step("rough", 0.6);
   if (job.rough) run(rough_operation(work));
   progress.step("verify", 0.8);
-  // The judge needs memory of its own, and nothing of this.
-  work.fine.reset(), work.coarse.reset(), work.targets.forget();
-  if (!work.finish.strips.empty()) result.whole = judge_whole(work);
-  if (result.whole) {
-    result.figures = role_figures(result.roles, result.whole->verify);
-    write_result(*result.whole, job.folder);
-    WheelRest rest = rest_of(work, *result.whole);
-    result.rest = std::move(rest.places);
-    if (!rest.mesh.triangles.empty()) write_mesh((fs::path(job.folder) / "rest.stl").string(), rest.mesh);
-  }
+  judge(work, result);
   write_file(plan, plan_json(result));
   return result;
 }

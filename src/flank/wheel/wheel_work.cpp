@@ -4,7 +4,7 @@
 
 #include "flank/base/parallel.h"
 #include "flank/geom/tessellate.h"
-#include "flank/io/face_names.h"
+#include "flank/path/turning.h"
 
 namespace flank::internal {
 namespace {
@@ -30,6 +30,14 @@ Names wall_faces(const WheelRoles& roles) {
   for (const std::string& face : roles.rest)
     if (!holds(roles.debris, face)) out.push_back(face);
   return out;
+}
+
+double WheelWork::turn_window() {
+  Names flow = roles.hub;
+  for (const WheelBlade& blade : sector.blades) append(flow, blade.flow());
+  double size = 0.0;
+  for (const Target* target : targets.of(flow)) size = std::max(size, target->diagonal());
+  return 1.1 * flank::internal::turn_window(size);
 }
 
 const TriangleBvh& WheelWork::coarse_triangles() {

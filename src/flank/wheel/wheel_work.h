@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "flank/feature/wheel_face.h"
-#include "flank/path/turning.h"
 #include "flank/tool.h"
 #include "flank/wheel/face_targets.h"
 #include "flank/wheel/sector.h"
@@ -41,12 +40,8 @@ struct WheelWork {
   [[nodiscard]] bool equal() const { return difference_mm <= kEqualShare * job.tolerance_mm; }
   /// The sectors that the hub of the part goes round.
   [[nodiscard]] int copies_of_hub() const { return roles.whole ? roles.count : 1; }
-  /// mm: of the turns that the judge looks at on the hub, and a little more.
-  [[nodiscard]] double turn_window() {
-    double size = 0.0;
-    for (const Target* target : targets.of(roles.hub)) size = size < target->diagonal() ? target->diagonal() : size;
-    return 1.1 * flank::internal::turn_window(size);
-  }
+  /// mm: within which the judge looks for turns, beside the largest of the flow faces, and a little more.
+  [[nodiscard]] double turn_window();
   /// How often `finish` is turned.
   [[nodiscard]] int copies() const { return equal() ? sector.copies : 1; }
 };

@@ -66,8 +66,8 @@ void FaceLines::lay_along_parameters() {
   double u = 0.0, v = 0.0;
   for (int i = 0; i <= kCoarse; ++i)
     for (int j = 0; j <= kCoarse; ++j) {
-      const SurfaceJet jet = face_.surface.jet(box.u0 + (box.u1 - box.u0) * i / kCoarse,
-                                               box.v0 + (box.v1 - box.v0) * j / kCoarse);
+      const SurfaceJet jet =
+          face_.surface.jet(box.u0 + (box.u1 - box.u0) * i / kCoarse, box.v0 + (box.v1 - box.v0) * j / kCoarse);
       u += jet.du.norm() * (box.u1 - box.u0), v += jet.dv.norm() * (box.v1 - box.v0);
     }
   if (u < v) std::swap(along_way_, across_way_);

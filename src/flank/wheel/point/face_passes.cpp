@@ -45,8 +45,9 @@ struct Work {
 /// Whether a place within a node's cells needs a pass: other nodes need no direction.
 bool is_asked(const AskedPlaces& wanted, const Net& net, double place, double line) {
   const auto range = [](double middle, double half, std::size_t count) {
-    return std::pair(static_cast<std::size_t>(std::max(0.0, std::floor(middle - half))),
-                     static_cast<std::size_t>(std::clamp(std::ceil(middle + half), 0.0, static_cast<double>(count) - 1.0)));
+    return std::pair(
+        static_cast<std::size_t>(std::max(0.0, std::floor(middle - half))),
+        static_cast<std::size_t>(std::clamp(std::ceil(middle + half), 0.0, static_cast<double>(count) - 1.0)));
   };
   const auto [line0, line1] = range(line, net.columns_apart, wanted.size());
   for (std::size_t n = line0; n <= line1; ++n) {
@@ -62,8 +63,8 @@ AxisField field_of(const FaceLines& lines, const TipRoom& room, const Net& net, 
   for (std::size_t k = 0; k < places.size(); ++k) {
     const double place = static_cast<double>(k / static_cast<std::size_t>(net.columns)) * net.rows_apart;
     const auto line = std::min(
-        lines.lines() - 1,
-        static_cast<std::size_t>(std::lround(static_cast<double>(k % static_cast<std::size_t>(net.columns)) * net.columns_apart)));
+        lines.lines() - 1, static_cast<std::size_t>(std::lround(
+                               static_cast<double>(k % static_cast<std::size_t>(net.columns)) * net.columns_apart)));
     if (!is_asked(wanted, net, place, static_cast<double>(line))) continue;
     if (const auto here = lines.at(line, place))
       places[k] = TipRoom::Rest{here->point + room.lift_mm() * here->normal, here->normal, 0.0};
