@@ -94,7 +94,7 @@ inline LayerTable read_layer_table(const fs::path& file) {
 
 /// The table of ARCHITECTURE.md: rows "| `room` | what it is | rooms |" (- for none).
 inline std::map<std::string, std::set<std::string>> read_documented_table(const fs::path& file) {
-  static const std::regex kRow(R"(\| `([\w/]+)` \|.*\| ([a-z/* -]+) \|)");
+  static const std::regex kRow(R"(\| `([\w/]+)` \|.*\| ([a-z_/* -]+) \|)");
   std::map<std::string, std::set<std::string>> table;
   for (const std::string& line : read_lines(file)) {
     std::smatch row;
