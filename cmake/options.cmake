@@ -47,7 +47,7 @@ set(FLANK_TEXT_OPTIONS $<$<CONFIG:Release>:-O1>)
 set(FLANK_DENSE_LAYERS bound correct)
 if(FLANK_SANITIZE AND NOT FLANK_FUZZ)
   set(FLANK_TEXT_OPTIONS -O0)
-  set(FLANK_DENSE_LAYERS bound correct machine io example inspect artefact)
+  set(FLANK_DENSE_LAYERS bound correct machine io example inspect results)
 endif()
 # A fault in a reader is to end the program, not to be used. A distributor who sets such flags for all packages switches this
 # off. FORTIFY needs the optimiser, and is not for sanitizers, which check more.

@@ -7,12 +7,12 @@
 
 #include "behind.h"
 #include "commands.h"
-#include "flank/artefact/write_result.h"
 #include "flank/io/text/json_input.h"
 #include "flank/pipeline/fit_defaults.h"
 #include "flank/pipeline/folder/resume_folder.h"
 #include "flank/pipeline/run_journal.h"
 #include "flank/printable.h"
+#include "flank/results/write_result.h"
 #include "flank/run.h"
 #include "job_options.h"
 

@@ -3,7 +3,7 @@
 #include "claims/claims_support.h"
 #include "flank/example/example_write.h"
 #include "flank/fit/swept_polish.h"
-#include "flank/toolbox/tool_model.h"
+#include "flank/tool_request/tool_model.h"
 
 namespace flank::internal::bench {
 namespace {

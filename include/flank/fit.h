@@ -111,7 +111,7 @@ struct FlankFitOptions {
   int strips = 1;
   /// >= 1: of 50 starts, how many are polished at most, and how many of those get the last passes (the second at most
   /// the first). Raise them if another start is suspected to win after all; most of the time goes into the last passes.
-  int kept_after_quick = 6, kept_after_polish = 3;
+  int polished_candidates = 6, finalists = 3;
   /// Covered share (estimate) that is asked for, in (0, 1]: with less a result does not meet the request.
   double least_coverage = 0.99;
   /// Covered share (estimate) at which a candidate that cuts and enters nothing too deep ends the search. Above 1: all
@@ -121,7 +121,7 @@ struct FlankFitOptions {
   /// is asked, mm (path/turning.h); 0: that of each motion's target. Where targets are pieces of one face it is the face's.
   double most_turn_rad = kMostTurnRad, turn_window_mm = 0.0;
   /// Beside walls, where a fit that avoids them from the start falls short: try other ways, too (fit/ways.h).
-  bool ways = true;
+  bool search_without_obstacles = true;
   /// Covered share in [0, 1]: if the best candidate covers less than this after the polish, the last passes are
   /// skipped. 0: never. For a caller that would try more strips in that case anyway.
   double least_coverage_for_last_passes = 0.0;
@@ -141,7 +141,7 @@ struct FlankFitOptions {
   /// 2,000 samples, so coverage is known to about a tenth of a percent. Lower it for a face that is long and thin.
   double sample_share = 1.0 / 45.0;
   /// Places of the targets that count for overcut besides the samples: where somebody else found a cut between them.
-  std::vector<Vec3> watched;
+  std::vector<Vec3> extra_overcut_points;
 };
 
 /// How much of the target a state covers, by the planner's own estimate of the swept distance f. An estimate: the judge
@@ -189,9 +189,9 @@ enum class FitStatus {
   kNoStart,  ///< no start gave a motion; the result has none
 };
 
-/// Beside walls: whether other ways than to avoid them from the start were tried (FlankFitOptions::ways), and what came of it.
+/// Beside walls: whether other ways than to avoid them from the start were tried (FlankFitOptions::search_without_obstacles), and what came of it.
 /// kHopeless: beaten, and what is found without the walls runs with its axis in them.
-enum class OtherWays { kNotTried, kBeaten, kHopeless, kBest };
+enum class UnobstructedSearch { kNotTried, kBeaten, kHopeless, kBest };
 
 struct FlankFitResult {
   FitStatus status = FitStatus::kNotRun;
@@ -204,8 +204,8 @@ struct FlankFitResult {
   std::vector<std::string> notes;     ///< for the user, added by callers
   int candidates = 0;                 ///< starts that were tried
   std::vector<TriedTool> tried;       ///< what was polished and not chosen, in its order
-  OtherWays other_ways = OtherWays::kNotTried;
-  bool looked_at = true;  ///< closely: false as FlankFitOptions::least_coverage_for_close_look says
+  UnobstructedSearch unobstructed_search = UnobstructedSearch::kNotTried;
+  bool closely_measured = true;  ///< closely: false as FlankFitOptions::least_coverage_for_close_look says
 };
 
 /// Automatic start: many ruled candidates across the target, each fitted briefly, ranked by swept coverage, the best
@@ -233,7 +233,7 @@ struct FlankFitResult {
 [[nodiscard]] FlankFitResult with_close_look(const std::vector<FitTask>& tasks, const FlankFitResult& found,
                                              const ToolModel& tool, const FlankFitOptions& options);
 
-/// A result that turns out to cut deeper than the tolerance at options.watched, between the samples that it was looked at
+/// A result that turns out to cut deeper than the tolerance at options.extra_overcut_points, between the samples that it was looked at
 /// with, led out of what it cuts. `tasks`: its targets and what is in the way of each of its motions. Notes and tried
 /// tools stay. None if nothing better is found.
 [[nodiscard]] std::optional<FlankFitResult> mend_fit(const std::vector<FitTask>& tasks, const FlankFitResult& found,

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "commands.h"
-#include "flank/artefact/acceptance.h"
+#include "flank/results/acceptance.h"
 
 namespace flank::cli {
 namespace {

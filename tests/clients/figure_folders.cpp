@@ -8,14 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "flank/artefact/acceptance.h"
-#include "flank/artefact/view.h"
-#include "flank/artefact/write_result.h"
 #include "flank/base/atomic_file.h"
 #include "flank/example.h"
 #include "flank/example/example_write.h"
 #include "flank/io/mesh/write_mesh.h"
 #include "flank/report.h"
+#include "flank/results/acceptance.h"
+#include "flank/results/view.h"
+#include "flank/results/write_result.h"
 #include "flank/setup/clearance_scene.h"
 
 namespace {

@@ -23,7 +23,7 @@ FlankFitOptions small_options() {
   options.tolerance_mm = kTolerance;
   options.bounds = {2.0, 8.0, 0.5};
   options.sample_share = 1.0 / 15.0;
-  options.kept_after_quick = options.kept_after_polish = 1;
+  options.polished_candidates = options.finalists = 1;
   return options;
 }
 
@@ -76,13 +76,13 @@ TEST(FitAutomatic, WhatCoversLessThanTheCallerWantsLookedAtGoesWithoutTheLastLoo
   FlankFitOptions options = small_options();
   options.enough_coverage = 1.1;  // never
   const FlankFitResult looked = fit_automatic(*blade, given_cylinder(5.0), options, {});
-  EXPECT_TRUE(looked.looked_at);
+  EXPECT_TRUE(looked.closely_measured);
   options.least_coverage_for_close_look = 1.1;
   const FlankFitResult rough = fit_automatic(*blade, given_cylinder(5.0), options, {});
-  EXPECT_FALSE(rough.looked_at);
+  EXPECT_FALSE(rough.closely_measured);
   const std::vector<FitTask> tasks = {{blade.get(), rough.motions.front()}};
   const FlankFitResult after = with_close_look(tasks, rough, given_cylinder(5.0), options);
-  EXPECT_TRUE(after.looked_at);
+  EXPECT_TRUE(after.closely_measured);
   EXPECT_NEAR(after.after.at_tolerance, looked.after.at_tolerance, 0.01);
   EXPECT_LT(after.after.overcut_mm, 0.1 * kTolerance);
   EXPECT_EQ(after.candidates, rough.candidates);
@@ -91,8 +91,8 @@ TEST(FitAutomatic, WhatCoversLessThanTheCallerWantsLookedAtGoesWithoutTheLastLoo
 TEST(FitAutomatic, CancelledItPolishesOnlyTheBestCandidate) {
   const auto blade = standing_blade(0.0);
   FlankFitOptions many = small_options();
-  many.kept_after_quick = 6;
-  many.kept_after_polish = 3;
+  many.polished_candidates = 6;
+  many.finalists = 3;
   Progress cancelled;
   cancelled.cancelled = [] { return true; };
   const FlankFitResult stopped = fit_automatic(*blade, given_cylinder(5.0), many, cancelled);
@@ -143,8 +143,8 @@ TEST(FitAutomatic, BetweenPlatesAToolThatReachesTheirCornersWins) {
   FlankFitOptions options = small_options();
   options.bounds = {0.5, 9.0, 0.5};
   options.reach_radius_mm = 1.0;
-  options.kept_after_quick = 6;
-  options.kept_after_polish = 3;
+  options.polished_candidates = 6;
+  options.finalists = 3;
   const ObstacleField obstacles(testing::plates(), *blade, 9.0, kTolerance);
   options.obstacles = &obstacles;
   const FlankFitResult result = fit_automatic(*blade, {}, options, {});

@@ -22,7 +22,7 @@ FlankFitOptions options_at(double tolerance_mm) {
   options.tolerance_mm = tolerance_mm;
   options.bounds = {2.0, 8.0, 0.5};
   options.sample_share = 1.0 / 15.0;
-  options.kept_after_quick = options.kept_after_polish = 1;
+  options.polished_candidates = options.finalists = 1;
   options.reach_radius_mm = 5.0;
   return options;
 }

@@ -94,10 +94,10 @@ TEST(Polish, RankingSamplesHoldWatchedPlacesWithoutArea) {
   const auto blade = standing_blade(0.0);
   FlankFitOptions options = small_options();
   const std::size_t count = ranking_samples(*blade, nullptr, options).size();
-  options.watched = {Vec3(1.0, 2.0, 3.0)};
+  options.extra_overcut_points = {Vec3(1.0, 2.0, 3.0)};
   const auto samples = ranking_samples(*blade, nullptr, options);
   ASSERT_EQ(samples.size(), count + 1);
-  EXPECT_EQ(samples.back().point, options.watched.front());
+  EXPECT_EQ(samples.back().point, options.extra_overcut_points.front());
   EXPECT_EQ(samples.back().area, 0.0);
 }
 
@@ -306,7 +306,7 @@ TEST(Polish, SettlingTakesAFreeToolBackBelowTheTolerance) {
   const auto samples = ranking_samples(*blade, nullptr, options);
   for (const double tolerances : {0.5, 0.97}) {
     const Polished before = on_plane(*blade, tolerances * kTolerance, true, samples, options);
-    const Polished after = settled(before, options);
+    const Polished after = repair_closely(before, options);
     EXPECT_LE(after.estimate.overcut_mm, kTolerance) << tolerances;
     EXPECT_EQ(after.estimate.at_tolerance, 1.0) << tolerances;
     const double shift = before.draft.tool.parameters()[0] - after.draft.tool.parameters()[0];
@@ -326,7 +326,7 @@ TEST(Polish, SettlingMakesAToolOfWhatIsNone) {
   FitDraft draft = draft_of(*blade, upright_motion(whole_blade(5.0)), even_spline(5.0), true);
   draft.tool = RadialFunction::spline(draft.tool.axis_length(), radii);
   ASSERT_FALSE(check_legitimacy(draft.tool).legitimate);
-  const Polished after = settled(assess(draft, samples, options), options);
+  const Polished after = repair_closely(assess(draft, samples, options), options);
   EXPECT_TRUE(after.estimate.legitimate);
   EXPECT_TRUE(check_legitimacy(after.draft.tool).legitimate);
   EXPECT_EQ(after.estimate.at_tolerance, 1.0);
@@ -340,13 +340,13 @@ TEST(Polish, WhatTheLastLookFindsTooDeepIsLedOut) {
   for (const bool free : {true, false}) {
     const Polished before = on_plane(*blade, 1.7 * kTolerance, free, samples, options);
     ASSERT_GT(before.estimate.overcut_mm, kTolerance);
-    const Polished after = settled(before, options);
+    const Polished after = repair_closely(before, options);
     EXPECT_LE(after.estimate.overcut_mm, kTolerance) << free;
     EXPECT_EQ(after.estimate.at_tolerance, 1.0) << free;
   }
   // Far too deep is no matter of a last pass.
   const Polished lost = on_plane(*blade, 20.0 * kTolerance, false, samples, options);
-  EXPECT_NEAR(settled(lost, options).estimate.overcut_mm, 20.0 * kTolerance, 1e-6);
+  EXPECT_NEAR(repair_closely(lost, options).estimate.overcut_mm, 20.0 * kTolerance, 1e-6);
 }
 
 /// A ridge as narrow as a point, between all samples: who finds it says so.
@@ -354,7 +354,7 @@ TEST(Polish, ACutThatSomebodyElseFoundIsMended) {
   if (kSanitized) GTEST_SKIP() << "passes of 2,500 points";
   const auto blade = standing_blade(0.0);
   FlankFitOptions options = small_options();
-  options.watched = {Vec3(30.1, 1.6 * kTolerance, 20.1)};
+  options.extra_overcut_points = {Vec3(30.1, 1.6 * kTolerance, 20.1)};
   FlankFitResult found;
   found.motions = {upright_motion(whole_blade(5.0))};
   found.tool = even_spline(5.0);
@@ -365,9 +365,9 @@ TEST(Polish, ACutThatSomebodyElseFoundIsMended) {
   EXPECT_LE(mended->after.overcut_mm, kTolerance);
   EXPECT_EQ(mended->after.at_tolerance, 1.0);
   EXPECT_EQ(mended->notes, found.notes);
-  const std::vector<SurfaceSample> ridge{{options.watched.front(), Vec3::UnitY(), 1.0}};
+  const std::vector<SurfaceSample> ridge{{options.extra_overcut_points.front(), Vec3::UnitY(), 1.0}};
   EXPECT_LE(estimate_coverage(ridge, mended->motions, mended->tool, kTolerance, 600).overcut_mm, kTolerance);
-  options.watched = {Vec3(30.1, 0.5 * kTolerance, 20.1)};
+  options.extra_overcut_points = {Vec3(30.1, 0.5 * kTolerance, 20.1)};
   EXPECT_FALSE(mend_fit(tasks, found, {}, options)) << "nothing is to be mended";
 }
 
@@ -402,7 +402,7 @@ TEST(Polish, SettlingTakesACuspOutOfAMotionThatPlungesThere) {
   const Polished plunging = assess(cusped_draft(*blade, 48, 24), samples, options);
   ASSERT_GT(plunging.estimate.largest_c, 1.0);
   ASSERT_GT(plunging.estimate.at_tolerance, 0.99);
-  const Polished steady = settled(plunging, options);
+  const Polished steady = repair_closely(plunging, options);
   EXPECT_LT(steady.estimate.largest_c, 1.0);
   EXPECT_GT(steady.estimate.at_tolerance, 0.99);
   EXPECT_LE(steady.estimate.overcut_mm, kLoose);
@@ -443,7 +443,7 @@ TEST(Polish, SettlingSeesACuspBetweenThePosesThatRank) {
   ASSERT_LT(ranked.estimate.largest_c, 1.0);
   constexpr int kOften = 8 * kRankingPoses;
   ASSERT_GT(touching_c(draft, kLoose, kOften), 1.0);
-  const Polished steady = settled(ranked, options);
+  const Polished steady = repair_closely(ranked, options);
   EXPECT_LT(touching_c(steady.draft, kLoose, kOften), 1.0);
 }
 
@@ -452,7 +452,7 @@ TEST(Polish, TheVerdictAsksForCoverageOvercutAndGouge) {
   const FlankFitOptions options = small_options();
   const auto samples = ranking_samples(*blade, nullptr, options);
   Polished good = on_plane(*blade, 0.0, true, samples, options);
-  const auto status = [&](const Polished& polished) { return finish(polished, options, {}).status; };
+  const auto status = [&](const Polished& polished) { return make_result(polished, options, {}).status; };
   EXPECT_EQ(status(good), FitStatus::kWithinTolerance);
   Polished worse = good;
   worse.estimate.at_tolerance = 0.989;
@@ -465,7 +465,7 @@ TEST(Polish, TheVerdictAsksForCoverageOvercutAndGouge) {
   EXPECT_EQ(status(worse), FitStatus::kPartial);
   FlankFitResult started;
   started.candidates = 7;
-  const FlankFitResult result = finish(good, options, started);
+  const FlankFitResult result = make_result(good, options, started);
   EXPECT_EQ(result.candidates, 7) << "what was known before stays";
   EXPECT_EQ(result.motions.size(), 1u);
   EXPECT_LT(result.residuals.largest_mm, 1e-9);

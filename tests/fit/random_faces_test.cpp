@@ -52,8 +52,8 @@ FlankFitOptions small_options(const Target& target) {
   options.tolerance_mm = 1e-3 * target.diagonal();
   options.bounds = {0.01 * target.diagonal(), 0.15 * target.diagonal(), 0.95, 8.0, 0.1};
   options.sample_share = 1.0 / 20.0;
-  options.kept_after_quick = 2;
-  options.kept_after_polish = 1;
+  options.polished_candidates = 2;
+  options.finalists = 1;
   return options;
 }
 

@@ -150,8 +150,8 @@ TEST(Stages, FairnessIsCountedInTolerancesAndBendsOfTheTarget) {
   // The same part in other units is fitted in the same way.
   EXPECT_DOUBLE_EQ(fairness_of(share, tolerance, size, 120), fairness_of(share, 1e-3 * tolerance, 1e-3 * size, 120));
   FitStage small, large;
-  keep_going(small, tolerance, size);
-  keep_going(large, 1e3 * tolerance, 1e3 * size);
+  set_motion_weights(small, tolerance, size);
+  set_motion_weights(large, 1e3 * tolerance, 1e3 * size);
   EXPECT_DOUBLE_EQ(small.plunge_weight, large.plunge_weight);
   EXPECT_DOUBLE_EQ(small.lag_weight, large.lag_weight);
   EXPECT_GT(small.lag_weight, 0.0);

@@ -301,7 +301,7 @@ TEST(LastDigits, AreFoundOnAnEnvelope) {
   draft.free_tool = true;
   const Polished rough = assess(draft, samples, options);
   ASSERT_GT(rough.estimate.rms_mm, 5e-6 * size);
-  const Polished fine = last_digits(rough, samples, options, nullptr);
+  const Polished fine = refine_exact_envelope(rough, samples, options, nullptr);
   EXPECT_TRUE(fine.exact);
   EXPECT_LT(fine.estimate.rms_mm, 0.2 * rough.estimate.rms_mm);
   EXPECT_LE(fine.estimate.overcut_mm, std::max(rough.estimate.overcut_mm, 2e-6 * size));
@@ -314,7 +314,7 @@ TEST(LastDigits, LeaveWhatIsNoEnvelopeAndToolsThatAreGiven) {
   const auto samples = ranking_samples(*target, nullptr, options);
   for (const bool free_tool : {true, false}) {
     const Polished start = assess(twisted_draft(*target, kLift, 0.0, free_tool), samples, options);
-    const Polished same = last_digits(start, samples, options, nullptr);
+    const Polished same = refine_exact_envelope(start, samples, options, nullptr);
     EXPECT_FALSE(same.exact);
     EXPECT_EQ(same.draft.motions.front().tip.poles, start.draft.motions.front().tip.poles);
   }

@@ -122,14 +122,14 @@ FlankFitResult best_beside_wall(double first_covers, double free_x_last) {
 
 TEST(BestWay, SaysWhetherAnotherWayIsTheResult) {
   const FlankFitResult better = best_beside_wall(0.1, 56.0);
-  EXPECT_EQ(better.other_ways, OtherWays::kBest);
+  EXPECT_EQ(better.unobstructed_search, UnobstructedSearch::kBest);
   EXPECT_GT(better.after.at_tolerance, 0.3) << "on a shorter path";
   EXPECT_LE(better.after.gouge_mm, 1.1 * kDepth);
   const FlankFitResult beaten = best_beside_wall(1.0, 46.0);
-  EXPECT_EQ(beaten.other_ways, OtherWays::kBeaten) << "1 mm in the wall";
+  EXPECT_EQ(beaten.unobstructed_search, UnobstructedSearch::kBeaten) << "1 mm in the wall";
   EXPECT_EQ(beaten.after.at_tolerance, 1.0);
   const FlankFitResult hopeless = best_beside_wall(1.0, 56.0);
-  EXPECT_EQ(hopeless.other_ways, OtherWays::kHopeless) << "the axis ends 6 mm behind the wall";
+  EXPECT_EQ(hopeless.unobstructed_search, UnobstructedSearch::kHopeless) << "the axis ends 6 mm behind the wall";
   EXPECT_EQ(hopeless.after.at_tolerance, 1.0);
 }
 

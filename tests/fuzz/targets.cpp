@@ -23,7 +23,7 @@
 #include "flank/setup/tool_body.h"
 #include "flank/tool/radial_record.h"
 #include "flank/tool_file.h"
-#include "flank/toolbox/tool_spec.h"
+#include "flank/tool_request/tool_spec.h"
 
 namespace flank::fuzz {
 namespace {

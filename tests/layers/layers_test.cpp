@@ -33,8 +33,8 @@ TEST(Layers, ArchitectureShowsTheSameTable) {
 
 TEST(Layers, TheJudgeSeesNothingOfThePlanner) {
   const LayerTable table = read_layer_table(kRoot / "src/flank/layers.txt");
-  const std::set<std::string> planner = {"surface", "motion", "envelope", "obstacle", "seed",
-                                         "fit",     "strip",  "cover",    "choose",   "trochoid"};
+  const std::set<std::string> planner = {"surface", "motion", "envelope", "obstacle",    "seed",
+                                         "fit",     "strip",  "cover",    "tool_choice", "trochoid"};
   std::set<std::string> met;
   for (const auto& [room, allowed] : table.rooms) {
     const std::string layer = layer_of(room);

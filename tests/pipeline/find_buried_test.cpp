@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "flank/artefact/acceptance.h"
 #include "flank/pipeline/folder/judge_job.h"
+#include "flank/results/acceptance.h"
 #include "flank/verify/sample_face.h"
 #include "obstacle/obstacle_scene.h"
 #include "verify/buried_scene.h"

@@ -30,7 +30,7 @@ FlankFitOptions options() {
   options.tolerance_mm = kTolerance;
   options.bounds = {2.0, 8.0, 0.5};
   options.sample_share = 1.0 / 15.0;
-  options.kept_after_quick = options.kept_after_polish = 1;
+  options.polished_candidates = options.finalists = 1;
   options.enough_coverage = 0.99;
   return options;
 }

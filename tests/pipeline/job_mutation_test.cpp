@@ -21,7 +21,7 @@ FitJob full_job() {
   job.part = {"/parts/blade.step", "mm", "F1,F3", {}, -1};
   job.tool = {"barrel:arc=85,radius=5,s0=7", 40.5};
   job.radius = {2.25, 9.75, 0.75, 6.5, "any", 0.25, 60.5};
-  job.obstacles = {{}, {}, 4.5, 30.25, "0:10,30:12.5", {"/parts/vice.stl"}, "cm", 0.75};
+  job.obstacles = {{}, {}, "given", 4.5, 30.25, "0:10,30:12.5", {"/parts/vice.stl"}, "cm", 0.75};
   job.judge = {0.9, 0.8, 0.375, 3.5, 12.0};
   job.tolerance_mm = 0.0125;
   job.start = "0,0,5,0,0,45";

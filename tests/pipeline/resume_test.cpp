@@ -6,7 +6,6 @@
 #include <memory>
 #include <optional>
 
-#include "flank/artefact/write_result.h"
 #include "flank/base/sha256.h"
 #include "flank/base/stopping.h"
 #include "flank/error.h"
@@ -14,6 +13,7 @@
 #include "flank/io/cad/write_step.h"
 #include "flank/manifest/result_folder.h"
 #include "flank/pipeline/folder/resume_folder.h"
+#include "flank/results/write_result.h"
 #include "flank/run.h"
 #include "flank/tool_file.h"
 #include "sanitized.h"

@@ -23,7 +23,7 @@ class Ladder : public ::testing::Test {
     options_.sample_share = 1.0 / 15.0;
   }
   /// From a cylinder of 5 mm on 42 mm, slenderness 4.2.
-  [[nodiscard]] std::vector<FlankFitResult> climb(const Progress& progress = {}) const {
+  [[nodiscard]] std::vector<FlankFitResult> fit_ladder_side(const Progress& progress = {}) const {
     FlankFitResult found;
     found.tool = RadialFunction::spline(42.0, Eigen::VectorXd::Constant(6, 5.0));
     found.motions = {upright_motion({.y = 5.0, .z = -1.0, .x_first = -3.0, .x_last = 63.0, .length = 42.0})};
@@ -36,7 +36,7 @@ class Ladder : public ::testing::Test {
 };
 
 TEST_F(Ladder, HasARungForEverySlendernessThatTheBoundsAllow) {
-  const std::vector<FlankFitResult> rungs = climb();
+  const std::vector<FlankFitResult> rungs = fit_ladder_side();
   // 42 / (2 * 9) = 2.33 and 42 / (2 * 1.5) = 14 are the ends; 4 is the tool itself.
   const std::vector<double> bounds = {3.0, 2.5, 5.0, 6.0, 8.0, 12.0};
   ASSERT_EQ(rungs.size(), bounds.size());
@@ -50,9 +50,9 @@ TEST_F(Ladder, HasARungForEverySlendernessThatTheBoundsAllow) {
 
 TEST_F(Ladder, IsTheSameForOneAndThreeThreads) {
   set_thread_count(1);
-  const std::vector<FlankFitResult> one = climb();
+  const std::vector<FlankFitResult> one = fit_ladder_side();
   set_thread_count(3);
-  const std::vector<FlankFitResult> three = climb();
+  const std::vector<FlankFitResult> three = fit_ladder_side();
   set_thread_count(0);
   ASSERT_EQ(one.size(), three.size());
   for (std::size_t k = 0; k < one.size(); ++k) EXPECT_EQ(one[k].tool.parameters(), three[k].tool.parameters());
@@ -61,7 +61,7 @@ TEST_F(Ladder, IsTheSameForOneAndThreeThreads) {
 TEST_F(Ladder, EndsWhenTheUserHasHadEnough) {
   Progress progress;
   progress.cancelled = [] { return true; };
-  EXPECT_TRUE(climb(progress).empty());
+  EXPECT_TRUE(fit_ladder_side(progress).empty());
 }
 
 /// What covers half of the face, stiff as it was asked to be.
@@ -78,7 +78,7 @@ TEST_F(Ladder, ABoundThatGivesWayComesBackAsFarAsTheToolMayBeThick) {
   options_.axis_length_mm = 41.0;
   options_.bounds.smallest = 0.5;
   options_.bounds.largest = 2.0;
-  const FlankFitResult result = soften(*blade_, {}, options_, stiff_but_short(), {});
+  const FlankFitResult result = relax_stiffness_bounds(*blade_, {}, options_, stiff_but_short(), {});
   const double slenderness = slenderness_of(result.tool, options_.bounds);
   EXPECT_GT(result.after.at_tolerance, 0.99);
   EXPECT_GT(slenderness, 10.0);
@@ -90,7 +90,7 @@ TEST_F(Ladder, ABoundThatGivesWayComesBackAsFarAsTheToolMayBeThick) {
 
 TEST_F(Ladder, ABoundThatCostsNothingIsKept) {
   options_.bounds.smallest = 0.5;
-  const FlankFitResult result = soften(*blade_, {}, options_, stiff_but_short(), {});
+  const FlankFitResult result = relax_stiffness_bounds(*blade_, {}, options_, stiff_but_short(), {});
   EXPECT_GT(result.after.at_tolerance, 0.99);
   EXPECT_LT(slenderness_of(result.tool, options_.bounds), 1.05 * options_.bounds.slenderest);
 }

@@ -5,13 +5,13 @@
 #include <filesystem>
 #include <fstream>
 
-#include "flank/artefact/acceptance.h"
-#include "flank/artefact/verify_json.h"
 #include "flank/error.h"
 #include "flank/example.h"
 #include "flank/io/text/json_input.h"
 #include "flank/job/job_json.h"
 #include "flank/path_file.h"
+#include "flank/results/acceptance.h"
+#include "flank/results/verify_json.h"
 #include "flank/sheet/part_drawing.h"
 #include "flank/sheet/sheet_page.h"
 #include "flank/tool_file.h"

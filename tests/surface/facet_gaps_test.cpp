@@ -56,8 +56,8 @@ TEST(FacetGaps, LeaveNothingWhereTheyAreTwoTolerancesDeep) {
   const std::unique_ptr<Target> coarse = make_target(shapes::sphere(10, 6));
   const double middles = facet_gaps(*coarse, 0.15).share;
   ASSERT_GT(middles, 0.01);
-  EXPECT_DOUBLE_EQ(most_of_facets(*coarse, 0.075), 1.0 - middles);
-  EXPECT_EQ(most_of_facets(*coarse, 0.1), 1.0) << "a motion that cuts and leaves 0.1 mm finishes all of them";
+  EXPECT_DOUBLE_EQ(coverage_bound_by_facets(*coarse, 0.075), 1.0 - middles);
+  EXPECT_EQ(coverage_bound_by_facets(*coarse, 0.1), 1.0) << "a motion that cuts and leaves 0.1 mm finishes all of them";
 }
 
 }  // namespace

@@ -5,12 +5,12 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "flank/artefact/acceptance.h"
-#include "flank/artefact/verify_json.h"
 #include "flank/base/atomic_file.h"
 #include "flank/example.h"
 #include "flank/example/example_write.h"
 #include "flank/manifest/result_folder.h"
+#include "flank/results/acceptance.h"
+#include "flank/results/verify_json.h"
 #include "flank/sweep/sweep.h"
 #include "flank/sweep/tables.h"
 #include "temporary_folder.h"

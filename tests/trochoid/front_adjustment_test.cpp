@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "flank/trochoid/ways/half_path.h"
+#include "flank/trochoid/paths/half_path.h"
 
 namespace flank::internal {
 namespace {

@@ -20,7 +20,7 @@
 #include "flank/setup/default_tolerance.h"
 #include "flank/setup/read_setup.h"
 #include "flank/setup/targets.h"
-#include "flank/toolbox/tool_spec.h"
+#include "flank/tool_request/tool_spec.h"
 
 namespace flank::internal {
 namespace {

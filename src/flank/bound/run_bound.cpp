@@ -12,7 +12,7 @@
 #include "flank/job/input_files.h"
 #include "flank/setup/read_setup.h"
 #include "flank/setup/targets.h"
-#include "flank/toolbox/tool_spec.h"
+#include "flank/tool_request/tool_spec.h"
 
 namespace flank::internal {
 namespace {

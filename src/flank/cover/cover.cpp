@@ -99,7 +99,7 @@ double overlap_of(const CoverSamples& samples, const std::vector<CoverStrip>& st
 }
 
 /// Strips were chosen by coarse samples: what cuts too deep between those is lifted, or else cut short.
-std::vector<CoverStrip> made_certain(const TileScene& dense, std::vector<CoverStrip> strips) {
+std::vector<CoverStrip> certify_all(const TileScene& dense, std::vector<CoverStrip> strips) {
   parallel_for(strips.size(), [&](std::size_t k) {
     LineFitter fitter(dense.target, dense.radial, line_options(dense));
     const CoverStrip raised = lifted(dense.samples, dense.guard, std::move(strips[k]), dense.radial, fitter);
@@ -120,7 +120,7 @@ std::vector<CoverStrip> smoothed(const TileScene& coarse, const TileScene& dense
   if (stopping()) return strips;
   // Certified before they are compared: a strip's share counts only as far as it may be cut.
   strips =
-      kept_strips(progress, "certify", dense.samples, [&] { return made_certain(dense, remeasured(dense, strips)); });
+      kept_strips(progress, "certify", dense.samples, [&] { return certify_all(dense, remeasured(dense, strips)); });
   std::vector<CoverStrip> best = strips;
   for (int round = 0; round < kSmoothRounds && dense.options.smooth && !progress.stop(); ++round) {
     progress.step("smooth", kSmoothAt + kSmoothRoundStep * round);
@@ -130,7 +130,7 @@ std::vector<CoverStrip> smoothed(const TileScene& coarse, const TileScene& dense
     if (value_of(dense, strips) > value_of(dense, best) - (round == 0 ? kSmoothWorth : 0.0)) best = strips;
     if (round + 1 == kSmoothRounds) break;
     const std::vector<CoverStrip> more = kept_strips(progress, "add", dense.samples, [&] {
-      return made_certain(dense, remeasured(dense, additions(coarse, pool, remeasured(coarse, strips))));
+      return certify_all(dense, remeasured(dense, additions(coarse, pool, remeasured(coarse, strips))));
     });
     if (more.empty()) break;
     strips.insert(strips.end(), more.begin(), more.end());
@@ -139,7 +139,8 @@ std::vector<CoverStrip> smoothed(const TileScene& coarse, const TileScene& dense
 }
 
 /// Drops the strip that adds least if the others, smoothed again, take over what it covered.
-std::vector<CoverStrip> thinned(const TileScene& dense, std::vector<CoverStrip> strips, const Progress& progress) {
+std::vector<CoverStrip> drop_redundant(const TileScene& dense, std::vector<CoverStrip> strips,
+                                       const Progress& progress) {
   for (int k = 0; k < kDrops && dense.options.smooth && !progress.stop(); ++k) {
     progress.step("thin out", kThinAt);
     CellCount covered(dense.samples);
@@ -167,7 +168,7 @@ std::vector<CoverStrip> thinned(const TileScene& dense, std::vector<CoverStrip> 
 }
 
 /// The last and finest check of each strip.
-std::vector<CoverStrip> finally_certain(const TileScene& dense, std::vector<CoverStrip> strips) {
+std::vector<CoverStrip> certify_finely(const TileScene& dense, std::vector<CoverStrip> strips) {
   if (stopping()) return strips;
   parallel_for(strips.size(), [&](std::size_t k) {
     LineFitter fitter(dense.target, dense.radial, line_options(dense));
@@ -260,7 +261,7 @@ CoverSamples dense_samples(const TileScene& scene, const PoseGuard& guard, Cover
 }
 
 /// Nothing to choose from.
-CoverResult nothing(const TileScene& scene, int lines, CoverResult result) {
+CoverResult empty_result(const TileScene& scene, int lines, CoverResult result) {
   result.status = lines == 0 ? CoverStatus::kNoLine : CoverStatus::kNoStrip;
   result.message = scene.samples.cells.empty()
                        ? "this tool is too thick: a ball of its smallest radius touches the face nowhere without "
@@ -280,7 +281,7 @@ CoverResult curves_cover(const TileScene& scene, const PoseGuard& guard, CoverRe
   result.grown = found.counts.strips;
   result.notes.push_back(counts_text(found.counts));
   watch.lap("curves");
-  if (found.strips.empty()) return nothing(scene, found.counts.lines, std::move(result));
+  if (found.strips.empty()) return empty_result(scene, found.counts.lines, std::move(result));
 
   progress.step("smooth", kSmoothAt);
   const CoverSamples dense = dense_samples(scene, guard, result);
@@ -290,7 +291,7 @@ CoverResult curves_cover(const TileScene& scene, const PoseGuard& guard, CoverRe
   require_cells(smooth.strips, dense);
   result.coverage_before = smooth.coverage_before;
   watch.lap("smooth");
-  describe(scene, dense_scene, finally_certain(dense_scene, smooth.strips), result);
+  describe(scene, dense_scene, certify_finely(dense_scene, smooth.strips), result);
   watch.lap("order");
   return result;
 }
@@ -314,7 +315,7 @@ CoverResult search_strips(const Target& target, const Tool& tool, const Obstacle
   progress.step("grow", kGrowAt);
   CandidatePool pool = first_pool(scene, result, progress);
   watch.lap("grow");
-  if (pool.strips.empty() || samples.cells.empty()) return nothing(scene, pool.lines, std::move(result));
+  if (pool.strips.empty() || samples.cells.empty()) return empty_result(scene, pool.lines, std::move(result));
 
   progress.step("tile", kTileAt);
   std::vector<CoverStrip> strips = chosen(scene, pool.strips, progress);
@@ -325,10 +326,10 @@ CoverResult search_strips(const Target& target, const Tool& tool, const Obstacle
   progress.step("smooth", kSmoothAt);
   const CoverSamples dense = dense_samples(scene, guard, result);
   const TileScene dense_scene{target, tool.radial, dense, guard, options, kCertifySamples};
-  strips = thinned(dense_scene, smoothed(scene, dense_scene, pool.strips, strips, progress), progress);
+  strips = drop_redundant(dense_scene, smoothed(scene, dense_scene, pool.strips, strips, progress), progress);
   watch.lap("smooth");
 
-  strips = kept_strips(progress, "last check", dense, [&] { return finally_certain(dense_scene, strips); });
+  strips = kept_strips(progress, "last check", dense, [&] { return certify_finely(dense_scene, strips); });
   describe(scene, dense_scene, strips, result);
   watch.lap("order");
   return result;

@@ -13,7 +13,7 @@
 #include "flank/base/atomic_file.h"
 #include "flank/job/command_line.h"
 #include "flank/tool_file.h"
-#include "flank/toolbox/catalogue.h"
+#include "flank/tool_request/catalogue.h"
 
 namespace flank::internal {
 namespace {

@@ -15,8 +15,8 @@
 #include "flank/inspect.h"
 #include "flank/job/design_fields.h"
 #include "flank/job/input_files.h"
-#include "flank/toolbox/catalogue.h"
-#include "flank/toolbox/tool_spec.h"
+#include "flank/tool_request/catalogue.h"
+#include "flank/tool_request/tool_spec.h"
 
 namespace flank::internal {
 namespace {

@@ -3,11 +3,11 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "flank/artefact/view_body_json.h"
 #include "flank/error.h"
 #include "flank/io/text/json_dump.h"
 #include "flank/report.h"
 #include "flank/report/page_template.h"
+#include "flank/results/view_body_json.h"
 #include "flank/version.h"
 
 namespace flank {

@@ -12,10 +12,10 @@
 #include "flank/base/journal.h"
 #include "flank/base/parallel.h"
 #include "flank/fit/coverage.h"
+#include "flank/fit/finalists.h"
 #include "flank/fit/fit_record.h"
 #include "flank/fit/orbit/orbit_fit.h"
 #include "flank/fit/polish.h"
-#include "flank/fit/race.h"
 #include "flank/fit/rank.h"
 #include "flank/fit/starts/start_tasks.h"
 #include "flank/fit/starts/upper_end.h"
@@ -82,7 +82,7 @@ void score_with_gouge(Candidate& candidate, double tolerance_mm, int poses) {
 void rough_fit(Candidate& candidate, const FitDraft& draft, const Target& target, const FlankFitOptions& options,
                const std::vector<SurfaceSample>& samples) {
   FitStage stage = quick_stage(robust_scale(target, options));
-  keep_going(stage, kQuickTolerances * options.tolerance_mm, target.diagonal());
+  set_motion_weights(stage, kQuickTolerances * options.tolerance_mm, target.diagonal());
   candidate.draft = run_stage(draft, options.bounds, stage);
   if (!has_values(candidate.draft)) return;
   candidate.estimate = rough_estimate(candidate.draft, samples, options.tolerance_mm, kQuickPoses);
@@ -208,19 +208,19 @@ QuickStarts quick_starts(const Target& target, const ToolModel& tool, const Flan
       score_with_gouge(orbit, options.tolerance_mm, kRankingPoses);
     }
     std::vector<Candidate> others = best_in(charts.own, nullptr, {false, true});
-    rank_with_gouges(others, static_cast<std::size_t>(options.kept_after_quick), options.tolerance_mm);
+    rank_with_gouges(others, static_cast<std::size_t>(options.polished_candidates), options.tolerance_mm);
     for (Candidate& other : others) best.push_back(std::move(other));
     sort_by_score(best);
   }
   quick.touching = !best.empty() && best.front().score > 0.0;
-  best.resize(std::min(best.size(), static_cast<std::size_t>(options.kept_after_quick)));
+  best.resize(std::min(best.size(), static_cast<std::size_t>(options.polished_candidates)));
   for (Candidate& candidate : best) quick.drafts.push_back(std::move(candidate.draft));
   return quick;
 }
 
-void look_closely(Runner& runner, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options,
+void look_closely(FitCandidate& runner, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options,
                   const Progress& progress) {
-  advance(runner, progress, "close look", [&](Runner& next) { internal::look_closely(next, samples, options); });
+  advance(runner, progress, "close look", [&](FitCandidate& next) { internal::look_closely(next, samples, options); });
 }
 
 /// From all starts to one result, with options.obstacles in the way from the beginning.
@@ -229,7 +229,7 @@ FlankFitResult search_starts(const Target& target, const ToolModel& tool, const 
   FlankFitResult result;
   progress.step("starts", 0.0);
   QuickStarts quick = journaled(progress, "starts", [&] { return quick_starts(target, tool, options); });
-  for (FitDraft& draft : quick.drafts) tie(draft, target, options.obstacles);
+  for (FitDraft& draft : quick.drafts) reattach_targets(draft, target, options.obstacles);
   result.candidates = quick.tried;
   if (!quick.touching) {
     result.status = FitStatus::kNoStart;
@@ -238,18 +238,18 @@ FlankFitResult search_starts(const Target& target, const ToolModel& tool, const 
   if (quick.drafts.empty()) return result;
   progress.step("polish", 0.5);
   const std::vector<SurfaceSample> samples = ranking_samples(target, options.obstacles, options);
-  Runner best = race(quick.drafts, samples, options, progress);
+  FitCandidate best = run_finalists(quick.drafts, samples, options, progress);
   result.before = estimate_coverage(samples, best.start.motions, best.start.tool, options.tolerance_mm, kRankingPoses);
   result.trace = best.trace;
   result.tried = best.beaten;
-  result.looked_at = best.enough || best.polished.estimate.at_tolerance >= options.least_coverage_for_close_look;
-  if (!best.enough && result.looked_at) look_closely(best, samples, options, progress);
-  return finish(best.polished, options, std::move(result));
+  result.closely_measured = best.enough || best.polished.estimate.at_tolerance >= options.least_coverage_for_close_look;
+  if (!best.enough && result.closely_measured) look_closely(best, samples, options, progress);
+  return make_result(best.polished, options, std::move(result));
 }
 
 /// The search with options.obstacles in the way, and the other ways where it does not give what was asked.
-FlankFitResult search_ways(const Target& target, const ToolModel& tool, const FlankFitOptions& options,
-                           const Progress& progress) {
+FlankFitResult search_lean_variants(const Target& target, const ToolModel& tool, const FlankFitOptions& options,
+                                    const Progress& progress) {
   const auto search = [&](const FlankFitOptions& other) {
     Progress own = progress;
     if (other.obstacles != options.obstacles) own.found = nullptr;  // it may enter what it does not see
@@ -257,7 +257,8 @@ FlankFitResult search_ways(const Target& target, const ToolModel& tool, const Fl
         own, "search", [&] { return search_starts(target, tool, other, own); }, other, tool);
   };
   FlankFitResult first = search(options);
-  if (options.obstacles == nullptr || !options.ways || first.status == FitStatus::kWithinTolerance || progress.stop())
+  if (options.obstacles == nullptr || !options.search_without_obstacles ||
+      first.status == FitStatus::kWithinTolerance || progress.stop())
     return first;
   return best_way(target, tool, options, std::move(first), search, progress);
 }
@@ -283,20 +284,20 @@ FlankFitResult polish_starts(const std::vector<FitTask>& tasks, const ToolModel&
   FitDraft draft = make_draft(tasks, tool, options);
   progress.step("fit", 0.1);
   result.before = estimate_coverage(samples, draft.motions, draft.tool, options.tolerance_mm, kRankingPoses);
-  Runner only{.start = draft, .polished = {draft, {}, false}, .trace = {}, .beaten = {}};
-  advance(only, progress, "polish", [&](Runner& next) {
+  FitCandidate only{.start = draft, .polished = {draft, {}, false}, .trace = {}, .beaten = {}};
+  advance(only, progress, "polish", [&](FitCandidate& next) {
     next.polished = polish(draft, samples, options, &next.trace);
     settle_if_enough(next, samples, options);
   });
   progress.step("fit", 0.5);
   if (!only.enough) {
     advance(only, progress, "last passes",
-            [&](Runner& next) { next.polished = last_passes(next.polished, samples, options, &next.trace); });
+            [&](FitCandidate& next) { next.polished = last_passes(next.polished, samples, options, &next.trace); });
     look_closely(only, samples, options, progress);
   }
   progress.step("fit", 0.9);
   result.trace = std::move(only.trace);
-  return finish(only.polished, options, std::move(result));
+  return make_result(only.polished, options, std::move(result));
 }
 
 }  // namespace
@@ -304,7 +305,7 @@ FlankFitResult polish_starts(const std::vector<FitTask>& tasks, const ToolModel&
 FlankFitResult fit_automatic(const Target& target, const ToolModel& tool, const FlankFitOptions& options,
                              const Progress& progress) {
   return journaled(
-      progress, "fit", [&] { return search_ways(target, tool, options, progress); }, options, tool);
+      progress, "fit", [&] { return search_lean_variants(target, tool, options, progress); }, options, tool);
 }
 
 FlankFitResult fit_from_starts(const std::vector<FitTask>& tasks, const ToolModel& tool, const FlankFitOptions& options,
@@ -320,7 +321,7 @@ FlankFitResult fit_as_found(const std::vector<FitTask>& tasks, const RadialFunct
   FLANK_ASSERT(!tasks.empty());
   FitDraft draft = make_draft(tasks, tool, options);
   draft.tool = found;
-  return finish(looked_at_closely(draft, options), options, {});
+  return make_result(looked_at_closely(draft, options), options, {});
 }
 
 FlankFitResult fit_together(const std::vector<FitTask>& tasks, const RadialFunction& found, const ToolModel& tool,
@@ -339,8 +340,8 @@ FlankFitResult with_close_look(const std::vector<FitTask>& tasks, const FlankFit
   draft.motions = found.motions;
   draft.tool = found.tool;
   const Polished polished = assess(std::move(draft), samples, options);
-  FlankFitResult result = finish(looked_at_closely(polished, samples, options), options, found);
-  result.looked_at = true;
+  FlankFitResult result = make_result(looked_at_closely(polished, samples, options), options, found);
+  result.closely_measured = true;
   return result;
 }
 
@@ -352,9 +353,9 @@ std::optional<FlankFitResult> mend_fit(const std::vector<FitTask>& tasks, const 
   draft.motions = found.motions;
   draft.tool = found.tool;
   const Polished before = looked_at_closely(draft, options);
-  const Polished after = settled(before, options);
+  const Polished after = repair_closely(before, options);
   if (!is_better(after.estimate, before.estimate, options)) return std::nullopt;
-  return finish(after, options, found);
+  return make_result(after, options, found);
 }
 
 }  // namespace flank

@@ -52,8 +52,8 @@ void code(StepCodec& codec, FlankFitResult& fit) {
   code(codec, fit.notes);
   code(codec, fit.candidates);
   code(codec, fit.tried);
-  code_choice(codec, fit.other_ways, 4);
-  code(codec, fit.looked_at);
+  code_choice(codec, fit.unobstructed_search, 4);
+  code(codec, fit.closely_measured);
   codec.require(fit.motions.empty() || fit.tool.axis_length() > 0.0, "motions need a tool");
 }
 
@@ -79,13 +79,13 @@ void code(StepCodec& codec, FlankFitOptions& options) {
   code(codec, options.axis_length_mm);
   code(codec, options.bounds);
   code(codec, options.strips);
-  code(codec, options.kept_after_quick);
-  code(codec, options.kept_after_polish);
+  code(codec, options.polished_candidates);
+  code(codec, options.finalists);
   codec.number(options.least_coverage);
   codec.number(options.enough_coverage);
   codec.number(options.most_turn_rad);
   codec.number(options.turn_window_mm);
-  code(codec, options.ways);
+  code(codec, options.search_without_obstacles);
   codec.number(options.least_coverage_for_last_passes);
   codec.number(options.least_coverage_for_close_look);
   bool beside_walls = options.obstacles != nullptr;
@@ -94,8 +94,8 @@ void code(StepCodec& codec, FlankFitOptions& options) {
   code(codec, held);
   codec.number(options.reach_radius_mm);
   codec.number(options.sample_share);
-  options.watched.resize(codec.count(options.watched.size()));
-  for (Vec3& place : options.watched)
+  options.extra_overcut_points.resize(codec.count(options.extra_overcut_points.size()));
+  for (Vec3& place : options.extra_overcut_points)
     for (int k = 0; k < 3; ++k) codec.number(place[k]);
 }
 
@@ -109,7 +109,7 @@ void code(StepCodec& codec, ToolModel& tool) {
   code(codec, tool.first);
 }
 
-void tie(FitDraft& draft, const FitDraft& like) {
+void reattach_targets(FitDraft& draft, const FitDraft& like) {
   if (draft.motions.size() != like.motions.size())
     throw InputError(
         "resume.json does not fit this run; start without --resume: a step has another number of motions than its "
@@ -118,7 +118,7 @@ void tie(FitDraft& draft, const FitDraft& like) {
   draft.obstacles = like.obstacles;
 }
 
-void tie(FitDraft& draft, const Target& target, const ObstacleField* obstacles) {
+void reattach_targets(FitDraft& draft, const Target& target, const ObstacleField* obstacles) {
   draft.targets.assign(draft.motions.size(), &target);
   draft.obstacles.assign(draft.motions.size(), obstacles);
 }

@@ -19,8 +19,8 @@ void code(StepCodec& codec, FlankFitOptions& options);
 void code(StepCodec& codec, ToolModel& tool);
 
 /// The draft is one of `like`: of its targets and what is in their way. Throws InputError if it has not as many motions.
-void tie(FitDraft& draft, const FitDraft& like);
+void reattach_targets(FitDraft& draft, const FitDraft& like);
 /// All its motions are on one target; `obstacles` may be null.
-void tie(FitDraft& draft, const Target& target, const ObstacleField* obstacles);
+void reattach_targets(FitDraft& draft, const Target& target, const ObstacleField* obstacles);
 
 }  // namespace flank::internal

@@ -95,8 +95,8 @@ using Look = Polished (*)(FitDraft draft, const std::vector<SurfaceSample>& samp
 
 /// The polished draft with all radii of its free spline smaller by a length (not below the bound): r(s) - by, exactly.
 /// `look`: that which the polished draft was measured by.
-Polished shifted_by(const Polished& polished, double by, const std::vector<SurfaceSample>& samples,
-                    const FlankFitOptions& options, Look look = assess) {
+Polished with_radii_reduced(const Polished& polished, double by, const std::vector<SurfaceSample>& samples,
+                            const FlankFitOptions& options, Look look = assess) {
   FitDraft draft = polished.draft;
   const Eigen::VectorXd radii = draft.tool.parameters().array() - by;
   draft.tool = draft.tool.with_parameters(radii.cwiseMax(options.bounds.smallest));
@@ -111,8 +111,8 @@ Polished shifted_by(const Polished& polished, double by, const std::vector<Surfa
 
 /// A free tool's radii reduced against overcut, as far as that scores better: every length less on the radius is one
 /// less of overcut and one more of material left.
-Polished shifted(const Polished& polished, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options,
-                 Look look = assess) {
+Polished reduce_overcut(const Polished& polished, const std::vector<SurfaceSample>& samples,
+                        const FlankFitOptions& options, Look look = assess) {
   if (!polished.draft.free_tool) return polished;
   Polished best = polished;
   // Just enough to be within the tolerance, with room for what lies between the samples; and quarters of all, because
@@ -121,7 +121,7 @@ Polished shifted(const Polished& polished, const std::vector<SurfaceSample>& sam
                excess = overcut - kToleranceBudget.fit.overcut * options.tolerance_mm;
   for (double by : {excess, 0.25 * overcut, 0.5 * overcut, 0.75 * overcut, overcut}) {
     if (by <= 0.0) continue;
-    Polished trial = shifted_by(polished, by, samples, options, look);
+    Polished trial = with_radii_reduced(polished, by, samples, options, look);
     if (trial.estimate.score(options.tolerance_mm) > best.estimate.score(options.tolerance_mm)) best = std::move(trial);
   }
   return best;
@@ -129,10 +129,11 @@ Polished shifted(const Polished& polished, const std::vector<SurfaceSample>& sam
 
 /// A free, exact fit with more overcut than it may have: its radii are reduced until it has that; its motion, and so its
 /// last digits, stay. Not where it would cost coverage: then the residuals at the axis hide a deep cut elsewhere.
-Polished lowered(const Polished& exact, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
+Polished reduce_exact_overcut(const Polished& exact, const std::vector<SurfaceSample>& samples,
+                              const FlankFitOptions& options) {
   const double by = exact.estimate.overcut_mm - exact_overcut(exact.draft, options.tolerance_mm);
   if (!exact.draft.free_tool || by <= 0.0 || by > options.tolerance_mm) return exact;
-  Polished lower = shifted_by(exact, by, samples, options);
+  Polished lower = with_radii_reduced(exact, by, samples, options);
   lower.exact = true;
   return lower.estimate.at_tolerance > exact.estimate.at_tolerance - kSameCoverage ? lower : exact;
 }
@@ -169,20 +170,20 @@ Polished polish(const FitDraft& draft, const std::vector<SurfaceSample>& samples
   const double diagonal = draft.targets.front()->diagonal();
   const double scale = robust_scale(*draft.targets.front(), options);
   FitStage first = polish_stage(scale);
-  keep_going(first, options.tolerance_mm, diagonal);
+  set_motion_weights(first, options.tolerance_mm, diagonal);
   first.parallel_weight = 0.0;  // this pass shows whether the target is an envelope, whose axes lean as they do
   keep(assess(run_stage(draft, options.bounds, first, trace, &summary), samples, options));
   if (summary.rms_mm < kExactShare * diagonal) {
     best = exact_polish(best, samples, options, trace);
     best.exact = true;
     // An exact motion that plunges where it touches is worth less than one within the tolerance that does not.
-    if (best.estimate.largest_c < 1.0) return lowered(best, samples, options);
+    if (best.estimate.largest_c < 1.0) return reduce_exact_overcut(best, samples, options);
   }
   if (stopping()) return best;
   const FitStage stage = tolerance_stage(options.tolerance_mm, scale, diagonal);
   if (draft.free_tool || !draft.free_parameters.empty())
     keep(assess(run_stage(best.draft, options.bounds, stage, trace), samples, options));
-  return shifted(best, samples, options);
+  return reduce_overcut(best, samples, options);
 }
 
 Polished last_passes(const Polished& polished, const std::vector<SurfaceSample>& samples,
@@ -193,8 +194,8 @@ Polished last_passes(const Polished& polished, const std::vector<SurfaceSample>&
   const bool short_of_face = polished.estimate.at_tolerance < options.enough_coverage;
   // Residuals at the axis can be exact while the tool cuts deep elsewhere.
   const bool deep = polished.draft.free_tool && polished.estimate.overcut_mm > options.tolerance_mm;
-  if (polished.exact && !short_of_face && !deep) return lowered(polished, samples, options);
-  return shifted(swept_polish(polished, samples, options, trace, enough, begun), samples, options);
+  if (polished.exact && !short_of_face && !deep) return reduce_exact_overcut(polished, samples, options);
+  return reduce_overcut(swept_polish(polished, samples, options, trace, enough, begun), samples, options);
 }
 
 namespace {
@@ -227,8 +228,8 @@ Polished seen_closely(FitDraft draft, const std::vector<SurfaceSample>& samples,
 }
 
 /// A fit that the last look finds a little deeper than allowed, led out of what it cuts. `steadiness`: as pass_at has it.
-Polished mended(const Polished& polished, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options,
-                double steadiness = 1.0) {
+Polished repair_cuts(const Polished& polished, const std::vector<SurfaceSample>& samples,
+                     const FlankFitOptions& options, double steadiness = 1.0) {
   constexpr int kMost = 3;          // times: each brings places that the one before has made deep
   constexpr double kFirmer = 10.0;  // each time: what a soft term leaves goes with its weight
   const double tolerance = options.tolerance_mm;
@@ -248,12 +249,12 @@ Polished mended(const Polished& polished, const std::vector<SurfaceSample>& samp
 }
 
 /// What steadying cost of coverage, regained as far as a few more passes do without plunging again.
-Polished regained(Polished steady, double covered, double steadiness, const std::vector<SurfaceSample>& samples,
-                  const FlankFitOptions& options) {
+Polished recover_coverage(Polished steady, double covered, double steadiness, const std::vector<SurfaceSample>& samples,
+                          const FlankFitOptions& options) {
   constexpr int kMost = 3;
   for (int k = 0; k < kMost && steady.estimate.at_tolerance < covered && !stopping(); ++k) {
     const FitDraft draft = pass_at(steady.draft, {}, options, 1.0, steady.estimate.at_tolerance, steadiness);
-    Polished more = mended(seen_closely(draft, samples, options), samples, options, steadiness);
+    Polished more = repair_cuts(seen_closely(draft, samples, options), samples, options, steadiness);
     if (!is_better(more.estimate, steady.estimate, options)) break;
     steady = std::move(more);
   }
@@ -262,7 +263,8 @@ Polished regained(Polished steady, double covered, double steadiness, const std:
 
 /// A fit that plunges where it touches, or has a kink, led into a motion that does neither, where that costs no more than those do:
 /// earlier passes may leave a cusp of a rail that the face does not require.
-Polished steadied(const Polished& polished, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
+Polished remove_plunge(const Polished& polished, const std::vector<SurfaceSample>& samples,
+                       const FlankFitOptions& options) {
   /// As much as it takes, where the face holds against it.
   constexpr std::array kFirmness = {10.0, 100.0, 1000.0};
   if (is_steady(polished.estimate)) return polished;
@@ -270,17 +272,17 @@ Polished steadied(const Polished& polished, const std::vector<SurfaceSample>& sa
     if (stopping()) break;
     Polished trial = seen_closely(steady_pass(polished.draft, options, firmness), samples, options);
     // Led out of what it cuts with the weights of other passes, it would plunge again.
-    trial = mended(trial, samples, options, firmness);
+    trial = repair_cuts(trial, samples, options, firmness);
     if (is_steady(trial.estimate) && is_better(trial.estimate, polished.estimate, options))
-      return regained(std::move(trial), polished.estimate.at_tolerance, firmness, samples, options);
+      return recover_coverage(std::move(trial), polished.estimate.at_tolerance, firmness, samples, options);
   }
   return polished;
 }
 
 /// A free tool that is none somewhere between the samples of the passes (its spheres are not inscribed there), made one: by
 /// smoothing it there, or by another pass if that is better. As it was if that costs more than half of what is covered.
-Polished made_legitimate(const Polished& polished, const std::vector<SurfaceSample>& samples,
-                         const FlankFitOptions& options) {
+Polished make_tool_legitimate(const Polished& polished, const std::vector<SurfaceSample>& samples,
+                              const FlankFitOptions& options) {
   if (!polished.draft.free_tool || polished.estimate.legitimate) return polished;
   Polished best = polished;
   const auto smooth = [&](FitDraft draft) {
@@ -298,13 +300,13 @@ Polished made_legitimate(const Polished& polished, const std::vector<SurfaceSamp
 
 }  // namespace
 
-Polished settled(const Polished& polished, const FlankFitOptions& options) {
+Polished repair_closely(const Polished& polished, const FlankFitOptions& options) {
   if (stopping()) return polished;
   const std::vector<SurfaceSample> samples = close_samples(polished.draft, options);
-  Polished again = made_legitimate(seen_closely(polished.draft, samples, options), samples, options);
-  again = steadied(mended(again, samples, options), samples, options);
+  Polished again = make_tool_legitimate(seen_closely(polished.draft, samples, options), samples, options);
+  again = remove_plunge(repair_cuts(again, samples, options), samples, options);
   const bool legitimate = again.estimate.legitimate;
-  if (again.estimate.overcut_mm > options.tolerance_mm) again = shifted(again, samples, options, seen_closely);
+  if (again.estimate.overcut_mm > options.tolerance_mm) again = reduce_overcut(again, samples, options, seen_closely);
   again.estimate.legitimate = legitimate;  // smaller radii make no sphere stick out of the others
   // Between these samples, too, nothing may be cut deeper than the tolerance: a little room, if it costs little of the
   // covered share.
@@ -313,7 +315,7 @@ Polished settled(const Polished& polished, const FlankFitOptions& options) {
   const double by = std::max(again.estimate.overcut_mm - kToleranceBudget.fit.settled_overcut * options.tolerance_mm,
                              again.estimate.gouge_mm - kDeepest * options.tolerance_mm);
   if (!again.draft.free_tool || by <= 0.0) return again;
-  Polished lower = shifted_by(again, by, samples, options, seen_closely);
+  Polished lower = with_radii_reduced(again, by, samples, options, seen_closely);
   lower.estimate.legitimate = legitimate;
   const bool cheap = lower.estimate.at_tolerance >= again.estimate.at_tolerance - kCost;
   // What is deeper than allowed may cost more: a clean result is worth it, unless little is left.
@@ -324,7 +326,7 @@ Polished looked_at_closely(const FitDraft& draft, const FlankFitOptions& options
   return seen_closely(draft, close_samples(draft, options), options);
 }
 
-FlankFitResult finish(const Polished& polished, const FlankFitOptions& options, FlankFitResult result) {
+FlankFitResult make_result(const Polished& polished, const FlankFitOptions& options, FlankFitResult result) {
   result.tool = polished.draft.tool;
   result.motions = polished.draft.motions;
   result.after = polished.estimate;

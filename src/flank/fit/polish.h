@@ -19,7 +19,7 @@ namespace flank::internal {
 /// pass has. (make_draft measures the radius instead; here it is what tells the candidates apart.)
 [[nodiscard]] FitDraft start_draft(const std::vector<FitTask>& tasks, const ToolModel& tool, double radius);
 
-/// Least squares, then either the exact passes (residual near zero) or the tolerance pass, then `shifted` radii for a
+/// Least squares, then either the exact passes (residual near zero) or the tolerance pass, then `reduce_overcut` radii for a
 /// free tool. Returns the best that it saw by score, at worst the draft itself; `trace` grows if given.
 [[nodiscard]] Polished polish(const FitDraft& draft, const std::vector<SurfaceSample>& samples,
                               const FlankFitOptions& options, std::vector<IterationTrace>* trace);
@@ -31,19 +31,20 @@ namespace flank::internal {
                                    const FlankFitOptions& options, std::vector<IterationTrace>* trace,
                                    const IsEnough& enough = {}, bool begun = false);
 
-/// Tolerances: what is cut or entered deeper than this needs another motion; settled() does not mend it.
+/// Tolerances: what is cut or entered deeper than this needs another motion; repair_closely() does not mend it.
 inline constexpr double kMendable = 5.0;
 
 /// The same draft, assessed with samples four times denser than those that ranked it; a free tool's radii are reduced
 /// if its overcut turns out to be above, or just below, the tolerance. Without this the ranking's samples, which the
 /// passes have been chosen by, would flatter the result.
-[[nodiscard]] Polished settled(const Polished& polished, const FlankFitOptions& options);
+[[nodiscard]] Polished repair_closely(const Polished& polished, const FlankFitOptions& options);
 
 /// The draft, assessed with the samples of the last look.
 [[nodiscard]] Polished looked_at_closely(const FitDraft& draft, const FlankFitOptions& options);
 
 /// Fills a result from the chosen draft: validation with cold footpoints, status, message. What `result` holds already
 /// (before, trace, candidates) stays.
-[[nodiscard]] FlankFitResult finish(const Polished& polished, const FlankFitOptions& options, FlankFitResult result);
+[[nodiscard]] FlankFitResult make_result(const Polished& polished, const FlankFitOptions& options,
+                                         FlankFitResult result);
 
 }  // namespace flank::internal

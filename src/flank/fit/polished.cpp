@@ -139,7 +139,7 @@ std::vector<SurfaceSample> ranking_samples(const Target& target, const ObstacleF
   });
   // The rim, where a tool cuts deepest, counts for overcut alone: it has no area.
   for (const Vec3& point : target.border_points(spacing)) samples.push_back({point, Vec3::UnitZ()});
-  for (const Vec3& point : options.watched) samples.push_back({point, Vec3::UnitZ()});
+  for (const Vec3& point : options.extra_overcut_points) samples.push_back({point, Vec3::UnitZ()});
   return samples;
 }
 

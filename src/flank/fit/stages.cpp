@@ -168,7 +168,7 @@ FitStage exact_stage(bool last) {
   return stage;
 }
 
-void keep_going(FitStage& stage, double tolerance_mm, double size_mm) {
+void set_motion_weights(FitStage& stage, double tolerance_mm, double size_mm) {
   const double unit = (tolerance_mm / size_mm) * (tolerance_mm / size_mm);
   stage.plunge_weight = kPlungeShare * unit;
   stage.lag_weight = kLagShare * unit;
@@ -199,7 +199,7 @@ FitStage tolerance_stage(double tolerance_mm, double robust_scale_mm, double siz
       .clear_stride = 2,
       .step_tolerance = 1e-3,
   };
-  keep_going(stage, tolerance_mm, size_mm);
+  set_motion_weights(stage, tolerance_mm, size_mm);
   return stage;
 }
 

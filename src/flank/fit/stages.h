@@ -1,5 +1,5 @@
 /// One pass of the fit after another, coarse and robust first, then fine: the presets of FitStage, and how a pass is
-/// run. Which pass follows which is decided in race.cpp, polish.cpp and swept_polish.cpp.
+/// run. Which pass follows which is decided in finalists.cpp, polish.cpp and swept_polish.cpp.
 #pragma once
 
 #include <vector>
@@ -18,7 +18,7 @@ inline constexpr double kPlungeShare = 100.0, kLagShare = 100.0;
 inline constexpr double kParallelShare = 30.0;
 
 /// Sets all three for a target of this size.
-void keep_going(FitStage& stage, double tolerance_mm, double size_mm);
+void set_motion_weights(FitStage& stage, double tolerance_mm, double size_mm);
 
 /// FitStage::fairness at which rails that bend by the target's size over the motion (second differences of
 /// size / (samples - 1)^2) cost as much as `share` of a mean square error of one tolerance. A weight of its own, mm against

@@ -38,7 +38,7 @@ FitStage swept_stage(const SweptPass& pass, const FlankFitOptions& options, doub
   stage.robust_scale_mm = pass.out_of_sight * options.tolerance_mm;
   stage.overcut_weight = kOvercutWeight * pass.firmness;
   stage.clear_weight *= pass.firmness;
-  keep_going(stage, options.tolerance_mm, size_mm);
+  set_motion_weights(stage, options.tolerance_mm, size_mm);
   stage.step_tolerance = kStepTolerance;
   return stage;
 }

@@ -74,8 +74,8 @@ Polished first_passes(const Polished& polished, const std::vector<SurfaceSample>
   return best;
 }
 
-Polished last_digits(const Polished& polished, const std::vector<SurfaceSample>& samples,
-                     const FlankFitOptions& options, std::vector<IterationTrace>* trace) {
+Polished refine_exact_envelope(const Polished& polished, const std::vector<SurfaceSample>& samples,
+                               const FlankFitOptions& options, std::vector<IterationTrace>* trace) {
   constexpr double kEnvelope = 3e-5;  // of the size, as kExactShare (polish.cpp) at the axis
   constexpr int kIterations = 30;
   constexpr double kEnvelopeGains = 0.9;   // of the mean error, at most, after a pass: else it is no envelope
@@ -112,8 +112,8 @@ Polished last_digits(const Polished& polished, const std::vector<SurfaceSample>&
   return best;
 }
 
-Polished straightened(const Polished& polished, double least_coverage, const std::vector<SurfaceSample>& samples,
-                      const FlankFitOptions& options, std::vector<IterationTrace>* trace) {
+Polished reduce_stagger(const Polished& polished, double least_coverage, const std::vector<SurfaceSample>& samples,
+                        const FlankFitOptions& options, std::vector<IterationTrace>* trace) {
   /// Of the weight: as much as it takes, where the faces hold against it.
   constexpr std::array<double, 3> kFirmness = {1.0, 10.0, 100.0};
   /// Of the radius in the middle: a tool thinner by so much, which touches as well and makes all cycles longer, costs as much

@@ -28,9 +28,9 @@ namespace flank::internal {
 /// Of motions over facing sides, found without a look at each other: passes that draw the axes of both sides to the same lean, firmer each
 /// time, kept while `least_coverage` of the samples (or what there was, if that is less) stays covered, and nothing is cut or
 /// entered deeper than allowed. How far an axis leans along its way is hardly felt by a wall that is hardly curved along it.
-[[nodiscard]] Polished straightened(const Polished& polished, double least_coverage,
-                                    const std::vector<SurfaceSample>& samples, const FlankFitOptions& options,
-                                    std::vector<IterationTrace>* trace);
+[[nodiscard]] Polished reduce_stagger(const Polished& polished, double least_coverage,
+                                      const std::vector<SurfaceSample>& samples, const FlankFitOptions& options,
+                                      std::vector<IterationTrace>* trace);
 
 /// Of the size: overcut of an exact fit that is as good as none.
 inline constexpr double kDigitsShare = 2e-6;
@@ -39,8 +39,8 @@ inline constexpr double kDigitsShare = 2e-6;
 /// all of it covered): two passes without a dead zone, and with all but no weights but the error's. Residuals are those of
 /// the face, so the rim is held, which passes at the axis let go. Kept as far as mean error and overcut fall and
 /// nothing is lost; given up after the first pass if it is no envelope.
-[[nodiscard]] Polished last_digits(const Polished& polished, const std::vector<SurfaceSample>& samples,
-                                   const FlankFitOptions& options, std::vector<IterationTrace>* trace);
+[[nodiscard]] Polished refine_exact_envelope(const Polished& polished, const std::vector<SurfaceSample>& samples,
+                                             const FlankFitOptions& options, std::vector<IterationTrace>* trace);
 
 /// A tool whose shape is given cannot shrink: its overcut is taken out by the constrained pass, at the price of
 /// material left. Returns its argument for a free tool, if there is no overcut worth removing, or if the pass did not

@@ -189,7 +189,7 @@ void settle_in_turn(std::vector<Way>& ways, CoverageEstimate rival, const FlankF
   });
   for (Way* way : turn) {
     if (cannot_win(way->polished.estimate, rival, options)) continue;
-    way->polished = settled(way->polished, options);
+    way->polished = repair_closely(way->polished, options);
     if (is_better(way->polished.estimate, rival, options)) rival = way->polished.estimate;
   }
 }
@@ -250,10 +250,10 @@ FlankFitResult best_way(const Target& target, const ToolModel& tool, const Flank
                         FlankFitResult first, const StartSearch& search, const Progress& progress) {
   FlankFitOptions free_options = options;
   free_options.obstacles = nullptr;
-  free_options.kept_after_polish = 1;  // a start for what follows, not a result
+  free_options.finalists = 1;  // a start for what follows, not a result
   free_options.least_coverage_for_last_passes = least_to_win(first.after, options);
   const FlankFitResult free = search(free_options);
-  first.other_ways = OtherWays::kBeaten;
+  first.unobstructed_search = UnobstructedSearch::kBeaten;
   if (free.motions.empty() || (stopping() && !first.motions.empty())) return first;
   const double tolerance = options.tolerance_mm;
   const bool fixed_length = tool.axis_length || tool.longest_axis || options.axis_length_mm;
@@ -264,13 +264,13 @@ FlankFitResult best_way(const Target& target, const ToolModel& tool, const Flank
       },
       free);
   if (ways.empty()) throw InputError("resume.json is damaged: this step holds no candidate; start without --resume");
-  for (Way& way : ways) tie(way.polished.draft, target, options.obstacles);
+  for (Way& way : ways) reattach_targets(way.polished.draft, target, options.obstacles);
   const Way* best = nullptr;
   for (const Way& way : ways) {
     const CoverageEstimate& rival = best != nullptr ? best->polished.estimate : first.after;
     if ((best == nullptr && first.motions.empty()) || is_better(way.polished.estimate, rival, options)) best = &way;
   }
-  if (!can_be_led_out(ways.front().polished)) first.other_ways = OtherWays::kHopeless;
+  if (!can_be_led_out(ways.front().polished)) first.unobstructed_search = UnobstructedSearch::kHopeless;
   FlankFitResult result = first;
   if (best != nullptr) {
     result.tried.clear();
@@ -281,9 +281,9 @@ FlankFitResult best_way(const Target& target, const ToolModel& tool, const Flank
     result.notes.push_back(
         fmt::format("the motion was {}: it finishes {:.1f} % (estimate); one planned around them, {:.1f} %", best->name,
                     100.0 * best->polished.estimate.at_tolerance, 100.0 * first.after.at_tolerance));
-    result = finish(best->polished, options, std::move(result));
-    result.other_ways = OtherWays::kBest;
-    result.looked_at = true;
+    result = make_result(best->polished, options, std::move(result));
+    result.unobstructed_search = UnobstructedSearch::kBest;
+    result.closely_measured = true;
   }
   for (const Way& way : ways)
     if (&way != best)

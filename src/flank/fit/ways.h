@@ -19,7 +19,7 @@ using StartSearch = std::function<FlankFitResult(const FlankFitOptions&)>;
 
 /// FlankFitOptions::least_coverage_for_last_passes for a search that is only to beat this rival.
 [[nodiscard]] double least_to_win(const CoverageEstimate& rival, const FlankFitOptions& options);
-/// Whether no last look (settled(), polish.h) at a way makes it better than a rival that has been looked at.
+/// Whether no last look (repair_closely(), polish.h) at a way makes it better than a rival that has been looked at.
 [[nodiscard]] bool cannot_win(const CoverageEstimate& way, const CoverageEstimate& rival,
                               const FlankFitOptions& options);
 

@@ -69,7 +69,7 @@ Part read_mesh(const std::string& file, const PartFormat& format, std::string co
   try {
     ReadMesh repaired = repair_read_mesh(std::move(raw), format.loose);
     part.mesh = std::move(repaired.mesh);
-    part.repairs = std::move(repaired.account);
+    part.repairs = std::move(repaired.repairs);
   } catch (const InputError& error) {
     throw InputError(file + ": " + error.what());
   }

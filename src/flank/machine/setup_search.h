@@ -33,9 +33,9 @@ struct Clamping {
 
 /// What is to be reached, in the part's frame.
 struct SetupSearch {
-  std::vector<Pose> poses;    ///< of the controlled point
-  std::vector<bool> cutting;  ///< of each of them: along a strip, not on a link; empty: all are
-  UprightPlace upright = {};  ///< where the machine must reach, too
+  std::vector<Pose> poses;         ///< of the controlled point
+  std::vector<bool> cutting = {};  ///< of each of them: along a strip, not on a link; empty: all are
+  UprightPlace upright = {};       ///< where the machine must reach, too
   Clamping clamping = {};
 };
 

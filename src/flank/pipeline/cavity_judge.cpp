@@ -3,9 +3,9 @@
 #include <memory>
 #include <utility>
 
-#include "flank/artefact/view.h"
 #include "flank/base/stopping.h"
 #include "flank/pipeline/folder/judge_job.h"
+#include "flank/results/view.h"
 
 namespace flank::internal {
 

@@ -27,7 +27,7 @@ double rounded_up(double value) {
 
 std::string stuck_sentence(const TrochoidJob& job, const LayerCycles& cycles) {
   const double most = job.cycles.most_engagement_deg;
-  const RefusedStep& refused = cycles.stuck;
+  const LeastRejectedStep& refused = cycles.stuck;
   if (cycles.cycles.empty() && refused.largest_rad > 0.0)
     return fmt::format("the first cut cannot stay within {} degrees of engagement: the smallest found is {:.2f}", most,
                        refused.largest_rad * kRadian);

@@ -4,7 +4,6 @@
 #include <memory>
 #include <optional>
 
-#include "flank/artefact/view.h"
 #include "flank/base/stopping.h"
 #include "flank/base/tolerance_budget.h"
 #include "flank/envelope.h"
@@ -13,6 +12,7 @@
 #include "flank/path/bend_radius.h"
 #include "flank/pipeline/cut_direction.h"
 #include "flank/pipeline/folder/judge_job.h"
+#include "flank/results/view.h"
 #include "flank/strip/used_times.h"
 #include "flank/surface/ball_touch.h"
 

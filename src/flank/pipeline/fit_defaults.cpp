@@ -5,15 +5,15 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "flank/artefact/verify_json.h"
 #include "flank/io/text/json_dump.h"
 #include "flank/job/check_fields.h"
 #include "flank/pipeline/run_fit.h"
 #include "flank/pipeline/search/reach_ball.h"
+#include "flank/results/verify_json.h"
 #include "flank/setup/machined_side.h"
 #include "flank/setup/read_setup.h"
 #include "flank/setup/targets.h"
-#include "flank/toolbox/tool_spec.h"
+#include "flank/tool_request/tool_spec.h"
 
 namespace flank::internal {
 

@@ -16,7 +16,7 @@
 #include "flank/setup/read_setup.h"
 #include "flank/setup/tool_body.h"
 #include "flank/strip/strip_order.h"
-#include "flank/toolbox/tool_spec.h"
+#include "flank/tool_request/tool_spec.h"
 
 namespace flank::internal {
 

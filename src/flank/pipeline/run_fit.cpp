@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "flank/artefact/acceptance.h"
 #include "flank/base/stopping.h"
 #include "flank/base/tolerance_budget.h"
 #include "flank/error.h"
@@ -17,10 +16,11 @@
 #include "flank/obstacle/line_of_sight.h"
 #include "flank/pipeline/finish.h"
 #include "flank/pipeline/folder/judge_job.h"
-#include "flank/pipeline/lead_out.h"
+#include "flank/pipeline/repair_judged_cuts.h"
 #include "flank/pipeline/run_journal.h"
 #include "flank/pipeline/search/fit_search.h"
 #include "flank/pipeline/search/stiff_fit.h"
+#include "flank/results/acceptance.h"
 #include "flank/setup/read_setup.h"
 #include "flank/setup/tool_body.h"
 #include "flank/surface/facet_gaps.h"
@@ -178,7 +178,7 @@ void note_facets(const FitSearch& search, const FitJob& job, std::vector<std::st
   for (const TargetGroup& group : search.targets) {
     const FacetGaps gaps = facet_gaps(*group.target, *job.tolerance_mm);
     if (gaps.share <= kMostUnsaid * (1.0 - job.judge.least_coverage)) continue;
-    const double most = most_of_facets(*group.target, *job.tolerance_mm);
+    const double most = coverage_bound_by_facets(*group.target, *job.tolerance_mm);
     const bool hopeless = most < job.judge.least_coverage;
     notes.push_back(fmt::format(
         "{}: the mesh is coarse or rough: on {:.1f} % of it triangles lie farther than the tolerance, up to {:.2g} mm, "
@@ -258,7 +258,7 @@ void judge_fit(const Setup& setup, const ClearanceScene& scene, FitSearch& searc
     watch.lap("sample");
     judge_result(setup, scene, std::move(surfaces), result, watch);
     if (!result.complete || k + 1 == kMostTimes) return;
-    if (!lead_out(*job.tolerance_mm, before, search, result.verify)) return;
+    if (!repair_judged_cuts(*job.tolerance_mm, before, search, result.verify)) return;
     take_found(search, result);
     watch.lap("mend");
   }

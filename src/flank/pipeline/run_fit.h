@@ -4,7 +4,7 @@
 
 #include "flank/fit.h"
 #include "flank/run.h"
-#include "flank/toolbox/tool_spec.h"
+#include "flank/tool_request/tool_spec.h"
 
 namespace flank::internal {
 

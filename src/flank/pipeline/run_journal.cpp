@@ -5,7 +5,7 @@
 #include "flank/base/sha256.h"
 #include "flank/job/input_files.h"
 #include "flank/job/job_json.h"
-#include "flank/toolbox/catalogue.h"
+#include "flank/tool_request/catalogue.h"
 #include "flank/version.h"
 
 namespace flank::internal {

@@ -24,7 +24,7 @@
 #include "flank/setup/clearance_scene.h"
 #include "flank/setup/read_setup.h"
 #include "flank/setup/tool_body.h"
-#include "flank/toolbox/tool_model.h"
+#include "flank/tool_request/tool_model.h"
 #include "flank/trochoid/program.h"
 #include "flank/trochoid/sides/side_fit.h"
 #include "flank/trochoid/sides/side_room.h"

@@ -46,7 +46,7 @@ std::unique_ptr<Target> surface_of(const Part& part, int face) {
 }
 
 /// Solids of which a face is neither the target's own nor among the others.
-std::vector<char> bared_solids(const Part& part, const ObstacleChoice& choice) {
+std::vector<char> solids_with_unchecked_faces(const Part& part, const ObstacleChoice& choice) {
   std::vector<char> bared(static_cast<std::size_t>(part.solids), 0);
   for (int k = 0; k < static_cast<int>(part.faces.size()); ++k) {
     const int solid = part.faces[static_cast<std::size_t>(k)].solid;
@@ -256,7 +256,8 @@ Obstacles make_obstacles(const Part& part, const Target& target, const ObstacleC
   if (detail.faces_within_mm) {
     // About 200 of them: only the nearness of boxes is measured by them.
     samples = target.samples(std::sqrt(target.area() / kSamples));
-    add_surfaces(part, choice.others, samples, *detail.faces_within_mm, 0.0, bared_solids(part, choice), obstacles);
+    add_surfaces(part, choice.others, samples, *detail.faces_within_mm, 0.0, solids_with_unchecked_faces(part, choice),
+                 obstacles);
   }
   const std::vector<char> in_solid = add_solids(part, target, choice, obstacles);
   if (detail.meshes_within_mm) add_meshes(part, target, choice, detail, in_solid, obstacles);

@@ -7,8 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <variant>
 
-#include "flank/artefact/acceptance.h"
-#include "flank/artefact/verify_json.h"
 #include "flank/base/sha256.h"
 #include "flank/error.h"
 #include "flank/io/text/json_input.h"
@@ -20,6 +18,8 @@
 #include "flank/pipeline/folder/folder_job.h"
 #include "flank/pipeline/folder/operation_words.h"
 #include "flank/pipeline/folder/plan_operation.h"
+#include "flank/results/acceptance.h"
+#include "flank/results/verify_json.h"
 #include "flank/setup/read_setup.h"
 #include "flank/sheet/part_drawing.h"
 #include "flank/tool_file.h"

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flank/artefact/post_text.h"
 #include "flank/io/tool/tool_svg.h"
 #include "flank/report.h"
+#include "flank/results/post_text.h"
 
 namespace flank::internal {
 namespace {

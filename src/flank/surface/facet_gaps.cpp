@@ -56,7 +56,7 @@ FacetGaps facet_gaps(const Target& target, double beyond_mm) {
   return gaps;
 }
 
-double most_of_facets(const Target& target, double tolerance_mm) {
+double coverage_bound_by_facets(const Target& target, double tolerance_mm) {
   return 1.0 - facet_gaps(target, 2.0 * tolerance_mm).share;
 }
 

@@ -16,6 +16,6 @@ struct FacetGaps {
 
 /// The most that smooth motions can finish of a target, as a share of its area: a mesh's triangles that lie more than two tolerances
 /// off the smooth surface are cut too deep on one side of it, or left on the other. 1 for other targets.
-[[nodiscard]] double most_of_facets(const Target& target, double tolerance_mm);
+[[nodiscard]] double coverage_bound_by_facets(const Target& target, double tolerance_mm);
 
 }  // namespace flank::internal

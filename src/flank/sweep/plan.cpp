@@ -17,8 +17,8 @@
 #include "flank/job/input_files.h"
 #include "flank/part.h"
 #include "flank/sweep/task_batch.h"
-#include "flank/toolbox/catalogue.h"
-#include "flank/toolbox/tool_spec.h"
+#include "flank/tool_request/catalogue.h"
+#include "flank/tool_request/tool_spec.h"
 
 namespace flank::internal {
 namespace {

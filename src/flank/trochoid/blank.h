@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "flank/target.h"
+#include "flank/trochoid/paths/side_path.h"
 #include "flank/trochoid/stock/swept_stock.h"
-#include "flank/trochoid/ways/side_path.h"
 
 namespace flank::internal {
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "flank/ruled_motion.h"
-#include "flank/trochoid/ways/half_guard.h"
+#include "flank/trochoid/paths/half_guard.h"
 
 namespace flank::internal {
 

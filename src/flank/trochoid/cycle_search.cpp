@@ -87,7 +87,7 @@ double CycleSearch::gap(double from_x, double to_x) const {
 }
 
 double CycleSearch::partner(double from_x, double ahead) const {
-  const double y = across(from_x), wanted = y + ahead * gap(from_x, y);
+  const double y = paired_abscissa(from_x), wanted = y + ahead * gap(from_x, y);
   if (!sides_.from.stops_at_end()) return wanted;
   // At a wall both come to their ends together: who is there first turns on the spot, in a corner as round as the tool.
   const double left = std::max(0.0, sides_.from.last() - from_x);
@@ -249,7 +249,7 @@ FoundCycle CycleSearch::improved(FoundCycle found) {
   return found;
 }
 
-CycleShape CycleSearch::with_fit_back(const CycleState& now, double step) {
+CycleShape CycleSearch::replace_back_pass(const CycleState& now, double step) {
   const MeasureRings rings{rings_, volume_rings_, both_rings_};
   CycleShape best = now.shape;
   double least = std::numeric_limits<double>::infinity();
@@ -277,7 +277,7 @@ CycleShape CycleSearch::with_fit_back(const CycleState& now, double step) {
 
 std::vector<CycleSearch::Prospect> CycleSearch::prospects(const CycleState& now) {
   const double step = kShortStep * radius_;
-  CycleShape shape = with_fit_back(now, step);
+  CycleShape shape = replace_back_pass(now, step);
   std::vector<Prospect> out;
   for (const double handle : {0.08, 0.16, 0.26}) {
     for (const double bulge : {-0.08, 0.0, 0.08, 0.16, 0.28}) {

@@ -8,8 +8,8 @@
 #include "flank/trochoid/cycle_state.h"
 #include "flank/trochoid/engagement/engagement.h"
 #include "flank/trochoid/engagement/kept_measures.h"
-#include "flank/trochoid/ways/side_pairing.h"
-#include "flank/trochoid/ways/side_path.h"
+#include "flank/trochoid/paths/side_pairing.h"
+#include "flank/trochoid/paths/side_path.h"
 
 namespace flank::internal {
 
@@ -51,7 +51,7 @@ class CycleSearch {
   /// Shorter than this no step is one, mm.
   [[nodiscard]] double least_step() const;
   /// The place of the second side across from one of the first.
-  [[nodiscard]] double across(double from_x) const { return pairing_.at(from_x); }
+  [[nodiscard]] double paired_abscissa(double from_x) const { return pairing_.at(from_x); }
   /// After the same cycle, all that is learnt from cycle to cycle as a layer begins with it.
   [[nodiscard]] CycleState anew(const CycleState& now) const;
   /// The cycle after now.last whose end on the first side is a step farther, not measured.
@@ -96,7 +96,7 @@ class CycleSearch {
   [[nodiscard]] Prospect prospect(const CycleState& now, const CycleShape& shape, double step);
   /// The same shape with a back that is within the aim by itself and enters nothing, if the present one is not and another is: greedy
   /// shapes have led there.
-  [[nodiscard]] CycleShape with_fit_back(const CycleState& now, double step);
+  [[nodiscard]] CycleShape replace_back_pass(const CycleState& now, double step);
   /// Of fronts from flat to steep, those that enter no face first, then the worthiest.
   [[nodiscard]] std::vector<Prospect> prospects(const CycleState& now);
   /// The lift with which the tips of a cycle enter nothing, if there is one that helps, mm: the floor alone is asked.

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "flank/trochoid/ways/half_path.h"
+#include "flank/trochoid/paths/half_path.h"
 
 namespace flank::internal {
 

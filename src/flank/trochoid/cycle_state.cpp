@@ -15,7 +15,7 @@ void code(StepCodec& codec, Trial& trial) {
 
 }  // namespace
 
-void code(StepCodec& codec, RefusedStep& step) {
+void code(StepCodec& codec, LeastRejectedStep& step) {
   codec.finite(step.step_mm);
   codec.finite(step.largest_rad);
 }

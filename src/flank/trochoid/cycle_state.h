@@ -11,10 +11,10 @@
 namespace flank::internal {
 
 /// Of the steps that were too long, the one that engaged least; none: its engagement is 0.
-struct RefusedStep {
+struct LeastRejectedStep {
   double step_mm = 0.0, largest_rad = 0.0;
 };
-void code(StepCodec& codec, RefusedStep& step);
+void code(StepCodec& codec, LeastRejectedStep& step);
 
 /// What the next cycle is planned from.
 struct CycleState {
@@ -30,8 +30,8 @@ struct CycleState {
   double excess_rad = 0.0;
   double step_mm = 0.0;
   double largest_front_mm3 = 0.0;
-  std::size_t sweeps = 0;  ///< in the stock
-  RefusedStep refused;     ///< beyond the limit since the last cycle was looked for
+  std::size_t sweeps = 0;     ///< in the stock
+  LeastRejectedStep refused;  ///< beyond the limit since the last cycle was looked for
   /// Counts a step that engages farther than the limit. A search that aims lower refuses what the limit allows.
   void refuse(double by_mm, double engaged_rad, double limit_rad) {
     if (engaged_rad > limit_rad && (refused.largest_rad == 0.0 || engaged_rad < refused.largest_rad))

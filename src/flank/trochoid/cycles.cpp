@@ -221,7 +221,7 @@ Trial CyclePlanner::placed_first() {
   Trial first;
   for (int k = 0; k <= kMostDoublings; ++k, far *= 2.0) {
     now_.last.from_x = -far;
-    now_.last.to_x = search_.across(now_.last.from_x);
+    now_.last.to_x = search_.paired_abscissa(now_.last.from_x);
     first = search_.measured(now_, 0.0);
     if (cuts_nothing(search_, first)) break;
   }
@@ -246,7 +246,7 @@ bool CyclePlanner::accept_first(LayerCycles& out) {
   for (double back = kBackOff * search_.radius(); !accept(first, out); back *= 2.0) {
     if (first.from_x <= farthest) return false;
     now_.last.from_x = std::max(farthest, first.from_x - back);
-    now_.last.to_x = search_.across(now_.last.from_x);
+    now_.last.to_x = search_.paired_abscissa(now_.last.from_x);
     now_.excess_rad = 0.0;
     first = search_.measured(now_, 0.0);
   }

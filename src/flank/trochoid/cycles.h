@@ -37,7 +37,7 @@ enum class CycleStatus {
 struct LayerCycles {
   CycleStatus status = CycleStatus::kDone;
   std::vector<Cycle> cycles;
-  RefusedStep stuck;  ///< if it is stuck: of the steps that were tried, the one that exceeds the limit least
+  LeastRejectedStep stuck;  ///< if it is stuck: of the steps that were tried, the one that exceeds the limit least
   /// If it is done, but the limit is exceeded in the corners of a wall at its end: so far before it the fronts end, mm.
   double before_wall_mm = 0.0;
   /// Deepest that a half enters a face, by the planner's samples.

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "flank/trochoid/cycles.h"
-#include "flank/trochoid/ways/half_guard.h"
-#include "flank/trochoid/ways/retract.h"
-#include "flank/trochoid/ways/side_path.h"
+#include "flank/trochoid/paths/half_guard.h"
+#include "flank/trochoid/paths/retract.h"
+#include "flank/trochoid/paths/side_path.h"
 
 namespace flank::internal {
 

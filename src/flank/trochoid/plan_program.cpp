@@ -7,8 +7,8 @@
 #include "flank/base/tolerance_budget.h"
 #include "flank/trochoid/blank.h"
 #include "flank/trochoid/engagement/engagement.h"
+#include "flank/trochoid/paths/run_out.h"
 #include "flank/trochoid/program_writer.h"
-#include "flank/trochoid/ways/run_out.h"
 
 namespace flank::internal {
 namespace {

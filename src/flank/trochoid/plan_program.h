@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "flank/progress.h"
+#include "flank/trochoid/paths/half_guard.h"
 #include "flank/trochoid/program.h"
-#include "flank/trochoid/ways/half_guard.h"
 
 namespace flank::internal {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "flank/trochoid/paths/retract.h"
 #include "flank/trochoid/program.h"
 #include "flank/trochoid/stock/swept_stock.h"
-#include "flank/trochoid/ways/retract.h"
 
 namespace flank::internal {
 

@@ -41,7 +41,7 @@ struct FaceResult {
 };
 
 /// What a finer look at the coverage of a face need not do again.
-struct Known {
+struct FaceCache {
   std::optional<FaceVerdict> depth;  ///< with the figures of the proof of depth
   std::optional<FaceSamples> samples;
   std::vector<SweptDistance> distances;
@@ -50,7 +50,7 @@ struct Known {
 /// Looks at the coverage, in shares of ProofOptions::cover_evaluations. Where a share of the face is asked for, the first is coarse:
 /// if it is clear at once that this is covered, or that it is not, the last digits of the bound are not worth their price. The
 /// last ones cut the cells along the border of what is covered twice and three times more.
-constexpr std::array<double, 4> kLooks{1.0 / 12.0, 1.0, 16.0, 64.0};
+constexpr std::array<double, 4> kCoverageEffort{1.0 / 12.0, 1.0, 16.0, 64.0};
 
 /// One judgement.
 class Judge {
@@ -62,11 +62,11 @@ class Judge {
     const bool shapes = std::all_of(faces.begin(), faces.end(), [](const JudgedFace& f) { return f.shape != nullptr; });
     prove_depth_ = shapes && !faces.empty() && options_.depth == DepthProof::kProved;
     keep_ = least.reachable > 0.0 || least.whole > 0.0;
-    std::vector<Known> known(faces.size());
+    std::vector<FaceCache> known(faces.size());
     std::vector<FaceResult> results(faces.size());
     bool again = false;
-    for (std::size_t look = keep_ ? 0 : 1; look < kLooks.size();) {
-      balls_a_sample_ = kLooks[look] * static_cast<double>(options_.proof.cover_evaluations);
+    for (std::size_t look = keep_ ? 0 : 1; look < kCoverageEffort.size();) {
+      balls_a_sample_ = kCoverageEffort[look] * static_cast<double>(options_.proof.cover_evaluations);
       begin();
       for (std::size_t k = 0; k < faces.size(); ++k)
         if (!again || faces[k].target) results[k] = judge_face(faces[k], known[k]);
@@ -74,7 +74,7 @@ class Judge {
       again = true;
       if (border_decides(least.reachable, known)) {
         fine_ = true;
-        for (Known& face : known) face.samples.reset();
+        for (FaceCache& face : known) face.samples.reset();
         continue;
       }
       if (!undecided(least)) break;
@@ -101,11 +101,11 @@ class Judge {
 
   /// May the cells in which what is reachable ends tell whether what is needed is covered? They count whole where they are open, and
   /// as their middle is where they are measured.
-  [[nodiscard]] bool border_decides(double least, const std::vector<Known>& known) const {
+  [[nodiscard]] bool border_decides(double least, const std::vector<FaceCache>& known) const {
     const double sure = report_.coverage_reachable_bound.value_or(report_.coverage_reachable);
     if (!keep_ || fine_ || report_.overcut_bound_mm > report_.tolerance_mm || sure >= least) return false;
     double border = 0.0;
-    for (const Known& face : known)
+    for (const FaceCache& face : known)
       if (face.samples)
         for (const std::size_t i : reach_border(*face.samples)) border += face.samples->areas[i];
     return report_.coverage_reachable + share_of(border, reachable_mm2_) >= least;
@@ -137,7 +137,7 @@ class Judge {
 
   /// The samples of a tile, and f at each of them: as they are known, else measured.
   template <class Use>
-  void with_tile(const JudgedFace& face, std::size_t tile, Known& known, const Use& use) const {
+  void with_tile(const JudgedFace& face, std::size_t tile, FaceCache& known, const Use& use) const {
     if (known.samples) {
       use(*known.samples, known.distances);
       return;
@@ -152,7 +152,7 @@ class Judge {
     });
   }
 
-  FaceResult judge_face(const JudgedFace& face, Known& known) {
+  FaceResult judge_face(const JudgedFace& face, FaceCache& known) {
     std::unique_ptr<Shape> shape;
     if (face.shape != nullptr && face.target)
       shape = std::visit([](const auto* value) { return make_shape(*value); }, *face.shape);
@@ -174,7 +174,7 @@ class Judge {
   }
 
   /// The proof of depth, and what does not hold without it.
-  void complete(FaceResult& result, const JudgedFace& face, double separation, Known& known) const {
+  void complete(FaceResult& result, const JudgedFace& face, double separation, FaceCache& known) const {
     FaceVerdict& verdict = result.verdict;
     if (prove_depth_) {
       // Check surfaces were not asked at their samples: nothing is known between them.

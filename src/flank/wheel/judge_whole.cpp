@@ -4,9 +4,9 @@
 #include <memory>
 #include <utility>
 
-#include "flank/artefact/view.h"
 #include "flank/pipeline/folder/judge_job.h"
 #include "flank/pipeline/run_journal.h"
+#include "flank/results/view.h"
 #include "flank/setup/clearance_scene.h"
 #include "flank/setup/read_setup.h"
 #include "flank/wheel/perform.h"

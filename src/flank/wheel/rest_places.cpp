@@ -9,7 +9,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "flank/artefact/view.h"
+#include "flank/results/view.h"
 #include "flank/wheel/judge_whole.h"
 #include "flank/wheel/point/tip_room.h"
 

@@ -51,7 +51,7 @@ double volume(const TriangleMesh& mesh) {
 }
 
 bool tells(const ReadMesh& mesh, const std::string& words) {
-  return std::any_of(mesh.account.begin(), mesh.account.end(),
+  return std::any_of(mesh.repairs.begin(), mesh.repairs.end(),
                      [&](const std::string& line) { return line.find(words) != std::string::npos; });
 }
 
@@ -60,13 +60,13 @@ TEST(ReadMeshRepair, ASoundMeshIsLeftAloneAndThereIsNothingToTell) {
   const ReadMesh read = repair_read_mesh(mesh, false);
   EXPECT_EQ(read.mesh.vertices, mesh.vertices);
   EXPECT_EQ(read.mesh.triangles, mesh.triangles);
-  EXPECT_TRUE(read.account.empty()) << read.account.front();
+  EXPECT_TRUE(read.repairs.empty()) << read.repairs.front();
 }
 
 TEST(ReadMeshRepair, CornersThatTheFormatRepeatsAreWeldedWithoutAWord) {
   const ReadMesh soup = repair_read_mesh(as_soup(cube(4.0)), true);
   EXPECT_EQ(soup.mesh.vertices.size(), 8u);
-  EXPECT_TRUE(soup.account.empty());
+  EXPECT_TRUE(soup.repairs.empty());
   const ReadMesh file = repair_read_mesh(as_soup(cube(4.0)), false);
   EXPECT_EQ(file.mesh.vertices.size(), 8u);
   EXPECT_TRUE(tells(file, "welded 28 vertices"));

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "flank/base/random.h"
-#include "flank/trochoid/ways/half_path.h"
+#include "flank/trochoid/paths/half_path.h"
 
 namespace flank::internal {
 namespace {

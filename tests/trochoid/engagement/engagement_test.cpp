@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "flank/base/random.h"
-#include "flank/trochoid/ways/half_path.h"
+#include "flank/trochoid/paths/half_path.h"
 #include "sanitized.h"
 
 namespace flank::internal {

@@ -9,7 +9,7 @@
 #include <set>
 #include <utility>
 
-#include "flank/trochoid/ways/half_path.h"
+#include "flank/trochoid/paths/half_path.h"
 #include "sanitized.h"
 
 namespace flank::internal {

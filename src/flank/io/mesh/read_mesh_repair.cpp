@@ -119,7 +119,7 @@ bool strictly_inside(const Box3& a, const Box3& b) {
 
 /// Turns components that are closed, or nearly, and have a negative volume; not those inside another one, which bound a
 /// cavity.
-void turn_outwards(TriangleMesh& mesh, const Edges& edges, std::vector<std::string>& account) {
+void turn_outwards(TriangleMesh& mesh, const Edges& edges, std::vector<std::string>& repairs) {
   const std::vector<int> number = component_numbers(mesh, edges);
   const std::vector<Component> parts = describe(mesh, number);
   std::vector<char> turn(parts.size(), 0);
@@ -134,12 +134,12 @@ void turn_outwards(TriangleMesh& mesh, const Edges& edges, std::vector<std::stri
     std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
     ++turned;
   }
-  if (turned > 0) account.push_back(fmt::format("turned {} triangles of components that were inside out", turned));
-  if (parts.size() > 1) account.push_back(fmt::format("the mesh has {} components", parts.size()));
+  if (turned > 0) repairs.push_back(fmt::format("turned {} triangles of components that were inside out", turned));
+  if (parts.size() > 1) repairs.push_back(fmt::format("the mesh has {} components", parts.size()));
 }
 
 /// Holes, rims and folds stay as they are; the user is told.
-void tell_what_is_left(const TriangleMesh& mesh, const Edges& edges, std::vector<std::string>& account) {
+void tell_what_is_left(const TriangleMesh& mesh, const Edges& edges, std::vector<std::string>& repairs) {
   const std::vector<Vec3> normals = triangle_normals(mesh);
   Groups rims(mesh.vertices.size());
   long folds = 0, left = 0;
@@ -157,10 +157,10 @@ void tell_what_is_left(const TriangleMesh& mesh, const Edges& edges, std::vector
   });
   double largest = 0.0;
   for (const auto& [root, box] : boxes) largest = std::max(largest, box.diagonal());
-  if (left > 0) account.push_back(fmt::format("left {} non-manifold edges as borders between faces", left));
+  if (left > 0) repairs.push_back(fmt::format("left {} non-manifold edges as borders between faces", left));
   if (!boxes.empty())
-    account.push_back(fmt::format("left {} holes or open rims (the largest {:.3g} mm across)", boxes.size(), largest));
-  if (folds > 0) account.push_back(fmt::format("left {} edges at which the surface folds back onto itself", folds));
+    repairs.push_back(fmt::format("left {} holes or open rims (the largest {:.3g} mm across)", boxes.size(), largest));
+  if (folds > 0) repairs.push_back(fmt::format("left {} edges at which the surface folds back onto itself", folds));
 }
 
 }  // namespace
@@ -169,22 +169,22 @@ ReadMesh repair_read_mesh(TriangleMesh mesh, bool soup) {
   ReadMesh result;
   RepairedMesh first = repair_mesh(std::move(mesh), kWeldShare);
   if (soup) first.repair.welded_vertices = 0;
-  if (!first.repair.clean()) result.account.push_back(first.repair.account());
+  if (!first.repair.clean()) result.repairs.push_back(first.repair.account());
   result.mesh = std::move(first.mesh);
   Edges edges = mesh_edges(result.mesh);
   const std::size_t fins = remove_fins(result.mesh, edges);
   if (fins > 0) {
-    result.account.push_back(fmt::format("removed {} triangles of fins attached to non-manifold edges", fins));
+    result.repairs.push_back(fmt::format("removed {} triangles of fins attached to non-manifold edges", fins));
     // Without the fins more triangles are neighbours, so that more of them must agree.
     RepairedMesh second = repair_mesh(std::move(result.mesh));
     second.repair.isolated_vertices = 0;
-    if (!second.repair.clean()) result.account.push_back(second.repair.account());
+    if (!second.repair.clean()) result.repairs.push_back(second.repair.account());
     result.mesh = std::move(second.mesh);
     edges = mesh_edges(result.mesh);
   }
-  turn_outwards(result.mesh, edges, result.account);
+  turn_outwards(result.mesh, edges, result.repairs);
   // Turned triangles have the same edges.
-  tell_what_is_left(result.mesh, edges, result.account);
+  tell_what_is_left(result.mesh, edges, result.repairs);
   return result;
 }
 

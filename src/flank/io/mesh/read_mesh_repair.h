@@ -18,7 +18,7 @@ inline constexpr double kFinAreaShare = 0.01;
 struct ReadMesh {
   TriangleMesh mesh;
   std::vector<std::string>
-      account;  ///< what was repaired, and what is left as it is (holes, non-manifold edges), one sentence each
+      repairs;  ///< what was repaired, and what is left as it is (holes, non-manifold edges), one sentence each
 };
 
 /// Welds, removes degenerate and duplicate triangles and fins, makes the orientation of each component consistent, and

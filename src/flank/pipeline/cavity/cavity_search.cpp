@@ -93,11 +93,12 @@ double cleared(const CavityPlan& plan) {
   return sum / std::max(1, layers_of(plan.sides));
 }
 
-CavityPlan uncut_plan(SideFit sides, double bound) { return {std::move(sides), {}, bound, 0, {}}; }
+CavityPlan plan_without_cycles(SideFit sides, double bound) { return {std::move(sides), {}, bound, 0, {}}; }
 
 /// Whether sides are better than others, or there are no others: more layers or another lean are worth that.
 bool gains(const SideFit& sides, const SideFit& other, const CavityDemand& demand) {
-  return other.fit.motions.empty() || rank(uncut_plan(sides, 0.0), demand) > rank(uncut_plan(other, 0.0), demand);
+  return other.fit.motions.empty() ||
+         rank(plan_without_cycles(sides, 0.0), demand) > rank(plan_without_cycles(other, 0.0), demand);
 }
 
 /// As many layers as the tolerance needs, not those that cannot help; or as many as are asked for. `before`: sides that are there
@@ -162,7 +163,7 @@ CavityProgram plan(const CavityDemand& demand, const SideFit& sides, const PlanE
 
 /// With cycles, and judged if they get through.
 CavityPlan planned(SideFit sides, const Search& search, double bound, const PlanEffort& effort = kTry) {
-  CavityPlan out = uncut_plan(
+  CavityPlan out = plan_without_cycles(
       settle_sides(search.left, search.right, std::move(sides), options_under(search, bound), search.progress), bound);
   out.program = plan(search.demand, out.sides, effort, search.progress);
   if (search.judge && gets_through(out, search.demand) && !search.progress.stop()) out.finding = search.judge(out);
@@ -172,7 +173,7 @@ CavityPlan planned(SideFit sides, const Search& search, double bound, const Plan
 /// The same; without cycles where a thinner tool is the better bet.
 CavityPlan planned_under(const Bound& bound, SideFit sides, const Search& search) {
   const bool waits = bound.thinner && (is_narrow(sides) || !fills_reach(sides, search.demand));
-  return waits ? uncut_plan(std::move(sides), bound.mm) : planned(std::move(sides), search, bound.mm);
+  return waits ? plan_without_cycles(std::move(sides), bound.mm) : planned(std::move(sides), search, bound.mm);
 }
 
 const CavityPlan& best_of(const std::vector<CavityPlan>& plans, const CavityDemand& demand) {

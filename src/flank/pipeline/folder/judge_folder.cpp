@@ -7,10 +7,6 @@
 #include <map>
 #include <type_traits>
 
-#include "flank/artefact/acceptance.h"
-#include "flank/artefact/verify_json.h"
-#include "flank/artefact/view.h"
-#include "flank/artefact/view_json.h"
 #include "flank/base/tolerance_budget.h"
 #include "flank/error.h"
 #include "flank/io/face_names.h"
@@ -26,6 +22,10 @@
 #include "flank/pipeline/folder/folder_job.h"
 #include "flank/pipeline/folder/judge_job.h"
 #include "flank/pipeline/folder/judge_program.h"
+#include "flank/results/acceptance.h"
+#include "flank/results/verify_json.h"
+#include "flank/results/view.h"
+#include "flank/results/view_json.h"
 #include "flank/setup/clearance_scene.h"
 #include "flank/setup/read_setup.h"
 #include "flank/setup/shank_reach.h"

@@ -8,8 +8,6 @@
 #include <optional>
 #include <type_traits>
 
-#include "flank/artefact/acceptance.h"
-#include "flank/artefact/post_text.h"
 #include "flank/error.h"
 #include "flank/io/path/blank_json.h"
 #include "flank/io/text/json_input.h"
@@ -26,6 +24,8 @@
 #include "flank/pipeline/program/program_rapids.h"
 #include "flank/pipeline/program/program_setup.h"
 #include "flank/pipeline/program/stock_path.h"
+#include "flank/results/acceptance.h"
+#include "flank/results/post_text.h"
 #include "flank/setup/clearance_scene.h"
 #include "flank/setup/read_setup.h"
 #include "flank/setup/tool_body.h"

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "flank/artefact/acceptance.h"
 #include "flank/machine/body_check.h"
 #include "flank/machine/work_setup.h"
+#include "flank/results/acceptance.h"
 #include "flank/setup/clearance_scene.h"
 #include "flank/tool.h"
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <filesystem>
 
-#include "flank/artefact/acceptance.h"
 #include "flank/error.h"
 #include "flank/job/check_fields.h"
 #include "flank/machine/links.h"
@@ -16,6 +15,7 @@
 #include "flank/pipeline/folder/machine_scene.h"
 #include "flank/pipeline/folder/plan_operation.h"
 #include "flank/pipeline/folder/post_operation.h"
+#include "flank/results/acceptance.h"
 
 namespace flank {
 namespace internal {

@@ -7,13 +7,13 @@
 #include <filesystem>
 #include <numbers>
 
-#include "flank/artefact/acceptance.h"
-#include "flank/artefact/verify_json.h"
 #include "flank/error.h"
 #include "flank/io/text/json_input.h"
 #include "flank/machine/links.h"
 #include "flank/pipeline/folder/machine_scene.h"
 #include "flank/pipeline/folder/motion_json.h"
+#include "flank/results/acceptance.h"
+#include "flank/results/verify_json.h"
 #include "flank/setup/clearance_scene.h"
 #include "flank/setup/tool_body.h"
 

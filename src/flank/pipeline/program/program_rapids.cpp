@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flank/artefact/acceptance.h"
+#include "flank/results/acceptance.h"
 #include "flank/setup/clearance_scene.h"
 
 namespace flank::internal {

@@ -8,9 +8,9 @@
 #include <optional>
 #include <string_view>
 
-#include "flank/artefact/acceptance.h"
 #include "flank/machine/nc/header_text.h"
 #include "flank/machine/nc/nc_number.h"
+#include "flank/results/acceptance.h"
 
 namespace flank::internal {
 namespace {

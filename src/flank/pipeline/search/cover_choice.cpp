@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "flank/choose/family_search.h"
-#include "flank/choose/tool_ranking.h"
 #include "flank/error.h"
 #include "flank/setup/tool_body.h"
+#include "flank/tool_choice/family_search.h"
+#include "flank/tool_choice/tool_ranking.h"
 
 namespace flank::internal {
 namespace {

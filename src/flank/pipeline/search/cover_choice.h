@@ -7,8 +7,8 @@
 
 #include "flank/pipeline/search/cover_groups.h"
 #include "flank/run.h"
-#include "flank/toolbox/catalogue.h"
-#include "flank/toolbox/tool_spec.h"
+#include "flank/tool_request/catalogue.h"
+#include "flank/tool_request/tool_spec.h"
 
 namespace flank::internal {
 

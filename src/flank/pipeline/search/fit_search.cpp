@@ -22,7 +22,7 @@
 #include "flank/seed/guide_start.h"
 #include "flank/seed/line_start.h"
 #include "flank/surface/facet_gaps.h"
-#include "flank/toolbox/tool_model.h"
+#include "flank/tool_request/tool_model.h"
 
 namespace flank::internal {
 namespace {
@@ -50,18 +50,18 @@ double enough_for(double least_coverage) {
 
 /// Where facets keep every motion from what was asked, no more than they leave is searched for, and that with little: other ways and
 /// more candidates cost as much as all else, and facets stay what they are.
-void give_up_the_rest(double most, FlankFitOptions& options) {
+void limit_effort_to_facet_bound(double most, FlankFitOptions& options) {
   options.enough_coverage = std::min(options.enough_coverage, most);
-  options.ways = false;
-  options.kept_after_quick = 2;
-  options.kept_after_polish = 1;
+  options.search_without_obstacles = false;
+  options.polished_candidates = 2;
+  options.finalists = 1;
 }
 
 /// How much a search does, by the word of the job.
 struct Effort {
   double most_looks = 0.0;  ///< (base/work_count.h); a search that has done as much ends with its best so far
   int most_strips = kMostStrips;
-  int kept_after_quick = 0, kept_after_polish = 0;
+  int polished_candidates = 0, finalists = 0;
   bool soften = true;
 };
 
@@ -75,15 +75,16 @@ Effort effort_of(const FitJob& job) {
 /// `free_tool`: what is reachable is asked with the ball of the demand.
 FlankFitOptions options_of(const FitJob& job, const Setup& setup, const Target& target, bool free_tool) {
   FlankFitOptions options;
-  const double most = most_of_facets(target, *job.tolerance_mm), least = std::min(job.judge.least_coverage, most);
+  const double most = coverage_bound_by_facets(target, *job.tolerance_mm),
+               least = std::min(job.judge.least_coverage, most);
   options.tolerance_mm = *job.tolerance_mm;
   const Effort effort = effort_of(job);
-  options.kept_after_quick = effort.kept_after_quick;
-  options.kept_after_polish = effort.kept_after_polish;
+  options.polished_candidates = effort.polished_candidates;
+  options.finalists = effort.finalists;
   options.least_coverage = least;
   options.enough_coverage = std::min(options.enough_coverage, enough_for(least));
   if (job.judge.most_turn_deg > 0.0) options.most_turn_rad = job.judge.most_turn_deg * std::numbers::pi / 180.0;
-  if (most < job.judge.least_coverage) give_up_the_rest(most, options);
+  if (most < job.judge.least_coverage) limit_effort_to_facet_bound(most, options);
   options.axis_length_mm = job.tool.axis_length_mm;
   options.bounds = bounds_for(job, target);
   const double demanded = free_tool ? demanded_reach(job, setup, target, options.bounds) : 0.0;
@@ -97,7 +98,7 @@ double wanted_estimate(const FitJob& job, const Target& target, double spare_cov
   constexpr double kLeastEstimate = 0.97, kMost = 0.95;  // of the face; of what may be missing
   const double least = job.judge.least_coverage;
   const double wanted = std::max(least + std::min(spare_coverage, kMost * (1.0 - least)), kLeastEstimate);
-  return std::min(wanted, most_of_facets(target, *job.tolerance_mm));
+  return std::min(wanted, coverage_bound_by_facets(target, *job.tolerance_mm));
 }
 
 /// The motion of a start over the target; `notes` gets what its propagation says.
@@ -226,8 +227,8 @@ std::vector<RuledMotion> FitSearch::motions_of(const FlankFitResult& result) con
   if (!wound_face) return result.motions;
   std::vector<RuledMotion> motions;
   for (const RuledMotion& motion : result.motions)
-    motions.push_back(unwound(*wound_face, *targets.front().target, wound.front().obstacles.get(), motion, result.tool,
-                              options.tolerance_mm));
+    motions.push_back(extend_along_screw(*wound_face, *targets.front().target, wound.front().obstacles.get(), motion,
+                                         result.tool, options.tolerance_mm));
   return motions;
 }
 
@@ -238,7 +239,7 @@ void end_at_limit(FitSearch& search) {
   search.limited = true;
   search.fit.notes.push_back(
       "the search reached its limit of work; this is the best found. `--effort thorough` has no limit");
-  if (!search.fit.looked_at && !search.fit.motions.empty())
+  if (!search.fit.closely_measured && !search.fit.motions.empty())
     search.fit = with_close_look(search.tasks(), search.fit, search.tool, search.options);
 }
 

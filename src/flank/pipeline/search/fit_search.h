@@ -7,7 +7,7 @@
 #include "flank/pipeline/search/wound_face.h"
 #include "flank/setup/setup.h"
 #include "flank/setup/targets.h"
-#include "flank/toolbox/tool_spec.h"
+#include "flank/tool_request/tool_spec.h"
 
 namespace flank::internal {
 

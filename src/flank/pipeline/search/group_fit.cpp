@@ -32,14 +32,14 @@ constexpr double kPromising = 0.85;
 /// What covers less than this is beaten without a last look, which hardly makes it cover more.
 double least_to_look_at(const FlankFitResult& best, const FlankFitOptions& options) {
   constexpr double kLookGains = 0.01;  // of the face
-  const bool sound = best.looked_at && is_clean(best.after, options.tolerance_mm) && is_steady(best.after);
+  const bool sound = best.closely_measured && is_clean(best.after, options.tolerance_mm) && is_steady(best.after);
   return sound ? std::max(kPromising, best.after.at_tolerance - kLookGains) : kPromising;
 }
 
 /// The last look at a result that went without and was not beaten.
-FlankFitResult looked_at(FlankFitResult best, const Target& target, const ToolModel& tool,
-                         const FlankFitOptions& options, const Progress& progress) {
-  if (best.looked_at || best.motions.empty() || progress.stop()) return best;
+FlankFitResult closely_measured(FlankFitResult best, const Target& target, const ToolModel& tool,
+                                const FlankFitOptions& options, const Progress& progress) {
+  if (best.closely_measured || best.motions.empty() || progress.stop()) return best;
   std::vector<FitTask> tasks;
   for (const RuledMotion& motion : best.motions) tasks.push_back({&target, motion, options.obstacles});
   return journaled(
@@ -75,7 +75,7 @@ class StripSearch {
         options_(options),
         demand_(demand),
         wanted_(wanted),
-        gain_(options.tolerance_mm, wanted, !options.ways) {}
+        gain_(options.tolerance_mm, wanted, !options.search_without_obstacles) {}
 
   FlankFitResult run(const Progress& progress) {
     for (const Trial& trial : kSchedule) {
@@ -88,7 +88,7 @@ class StripSearch {
         break;
     }
     last_try(progress);
-    best_ = looked_at(std::move(best_), target_, tool_, options_, progress);
+    best_ = closely_measured(std::move(best_), target_, tool_, options_, progress);
     if (best_.motions.size() > 1)
       best_.notes.push_back(fmt::format("{} passes finish {:.1f} % (estimate), one pass {:.1f} %", best_.motions.size(),
                                         100.0 * best_.after.at_tolerance, 100.0 * one_covers_));
@@ -100,19 +100,21 @@ class StripSearch {
   [[nodiscard]] bool is_worth(const Trial& trial) const {
     constexpr double kFar = 0.5;  // of the face
     if (!trial.full) return true;
-    return best_.after.unheld <= 0.0 && options_.ways && one_covers_ >= kFar && (!trial.soft || demand_.soften);
+    return best_.after.unheld <= 0.0 && options_.search_without_obstacles && one_covers_ >= kFar &&
+           (!trial.soft || demand_.soften);
   }
 
   void try_strips(const Trial& trial, const Progress& progress) {
     FlankFitOptions options = options_;
     options.strips = trial.strips;
-    options.ways = options_.ways && !ways_last_ && !covers(best_.after, wanted_, options_);
+    options.search_without_obstacles =
+        options_.search_without_obstacles && !ways_last_ && !covers(best_.after, wanted_, options_);
     options.least_coverage_for_last_passes = trial.strips < demand_.most_strips ? kPromising : 0.0;
     options.least_coverage_for_close_look = least_to_look_at(best_, options);
     FlankFitResult result = fit_automatic(target_, tool_, options, progress);
     if (trial.strips == 1) one_covers_ = result.after.at_tolerance;
     // They cost as much as all before, and one strip more leads no axis out of another face.
-    if (result.other_ways == OtherWays::kHopeless || result.after.unheld > 0.0) ways_last_ = true;
+    if (result.unobstructed_search == UnobstructedSearch::kHopeless || result.after.unheld > 0.0) ways_last_ = true;
     keep_better(best_, std::move(result), options_);
     goes_on_ = gain_.goes_on(best_);
   }
@@ -122,14 +124,14 @@ class StripSearch {
     options.strips = 1;
     if (!one_) one_ = fit_automatic(target_, tool_, options, progress);
     one_covers_ = std::max(one_covers_, one_->after.at_tolerance);
-    FlankFitResult result = trial.soft ? soften(target_, tool_, options, *one_, progress) : *one_;
+    FlankFitResult result = trial.soft ? relax_stiffness_bounds(target_, tool_, options, *one_, progress) : *one_;
     keep_better(best_, std::move(result), options_);
   }
 
   /// The other ways that were left out on the way.
   void last_try(const Progress& progress) {
-    if (!options_.ways || !ways_last_ || best_.after.unheld > 0.0 || meets_softly(best_, wanted_, options_) ||
-        progress.stop())
+    if (!options_.search_without_obstacles || !ways_last_ || best_.after.unheld > 0.0 ||
+        meets_softly(best_, wanted_, options_) || progress.stop())
       return;
     FlankFitOptions options = options_;
     options.strips = std::max<int>(1, static_cast<int>(best_.motions.size()));
@@ -158,7 +160,7 @@ FlankFitResult fit_group(const Target& target, const ToolModel& tool, FlankFitOp
   };
   const double reached = reachable_share(target, options), held = holdable_share(target, options);
   if (std::min(reached, held) < kHardlyAny) {
-    FlankFitResult hidden = fit_automatic(target, tool, hardly_worth_it(options), progress);
+    FlankFitResult hidden = fit_automatic(target, tool, scouting_options(options), progress);
     hidden.notes.push_back(reached < kHardlyAny ? out_of_reach_note(reached, options) : not_holdable_note(held));
     return hidden;
   }
@@ -174,12 +176,12 @@ FlankFitResult fit_group(const Target& target, const ToolModel& tool, FlankFitOp
   }
   // What facets keep from a motion no slender tool brings back, nor does it mend what covers all.
   const bool enough = done(best) || covers(best.after, wanted, options);
-  if (enough || !options.ways || !demand.soften || best.after.unheld > 0.0) {
+  if (enough || !options.search_without_obstacles || !demand.soften || best.after.unheld > 0.0) {
     note_slenderness(tool, options, best);
     return best;
   }
   options.strips = std::max<int>(1, static_cast<int>(best.motions.size()));
-  return soften(target, tool, options, std::move(best), progress.part(kSoften, 1.0));
+  return relax_stiffness_bounds(target, tool, options, std::move(best), progress.part(kSoften, 1.0));
 }
 
 /// The tool that was found, with nothing left open.
@@ -235,7 +237,7 @@ class TogetherFit {
     if (demand_.strips == 0 && first.motions.size() == 1) {
       one = polished(first, one_each, [&](std::size_t g, const Progress& part) {
         FlankFitOptions own = beside(groups_[g], options_);
-        own.ways = false;
+        own.search_without_obstacles = false;
         own.least_coverage_for_last_passes = 2.0;  // none: they come when all are polished
         return fit_automatic(*groups_[g].target, found, own, part);
       });

@@ -66,10 +66,10 @@ double ball_with_room(const Target& target, const FlankFitOptions& options, doub
   return radius_mm;
 }
 
-FlankFitOptions hardly_worth_it(FlankFitOptions options) {
+FlankFitOptions scouting_options(FlankFitOptions options) {
   options.strips = 1;
-  options.ways = false;
-  options.kept_after_quick = options.kept_after_polish = 1;
+  options.search_without_obstacles = false;
+  options.polished_candidates = options.finalists = 1;
   options.least_coverage_for_last_passes = 2.0;  // none
   return options;
 }

@@ -20,7 +20,7 @@ namespace flank::internal {
 [[nodiscard]] double ball_with_room(const Target& target, const FlankFitOptions& options, double radius_mm);
 
 /// Options of a search where hardly any of the target can be reached: one quick strip, so that there is something to look at.
-[[nodiscard]] FlankFitOptions hardly_worth_it(FlankFitOptions options);
+[[nodiscard]] FlankFitOptions scouting_options(FlankFitOptions options);
 
 /// Below this share of the area nobody can reach anything that is worth a tool.
 inline constexpr double kHardlyAny = 0.05;

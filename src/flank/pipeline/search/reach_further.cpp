@@ -32,16 +32,16 @@ std::vector<SurfaceSample> ranking_of_all(const FitDraft& draft, const FlankFitO
 }
 
 /// What is covered of the whole targets, in reach or not.
-struct OfWhole {
+struct WholeCoverage {
   double share = 0.0;  ///< of the area, within the tolerance
   double soft = 0.0;   ///< the same, with a part of what is little beyond it: samples of a narrow face lie in few rows
 };
 
-OfWhole of_whole(const FitDraft& draft, const FlankFitOptions& options) {
+WholeCoverage of_whole(const FitDraft& draft, const FlankFitOptions& options) {
   constexpr double kDenser = 2.0;  // in each direction, than what ranks drafts
   const double tolerance = options.tolerance_mm;
   const SweptEstimate swept(draft.motions, draft.tool, kRankingPoses);
-  OfWhole found;
+  WholeCoverage found;
   double area = 0.0;
   for (const Target* target : distinct_targets(draft)) {
     const auto samples = target->samples(std::sqrt(target->area()) * options.sample_share / kDenser);
@@ -85,13 +85,13 @@ double left_in_reach(const FitDraft& draft, const FlankFitOptions& options) {
 }
 
 /// A draft, what it covers of what is in reach, and of the whole.
-struct Reached {
+struct Extended {
   Polished polished;
-  OfWhole whole;
+  WholeCoverage whole;
 };
 
 /// By how much it covers more than another one, of the whole or of what is in reach; negative if it covers less of the whole.
-double gain(const Reached& now, const Reached& before) {
+double gain(const Extended& now, const Extended& before) {
   if (now.whole.share < before.whole.share) return now.whole.share - before.whole.share;
   return std::max(now.whole.soft - before.whole.soft,
                   now.polished.estimate.at_tolerance - before.polished.estimate.at_tolerance);
@@ -116,16 +116,16 @@ bool gives_up_nothing(const Polished& now, const Polished& before, const FlankFi
 }
 
 /// Passes as long as they gain.
-Reached passed_further(const Reached& start, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options,
-                       double steadiness) {
+Extended passed_further(const Extended& start, const std::vector<SurfaceSample>& samples,
+                        const FlankFitOptions& options, double steadiness) {
   constexpr double kGoesOn = 0.005;  // of the whole: a pass that gains less is the last
   constexpr int kMost = 3;
-  Reached best = start;
+  Extended best = start;
   for (int k = 0; k < kMost && !stopping(); ++k) {
     Polished trial = assess(further_pass(best.polished.draft, options, steadiness), samples, options);
     if (!has_values(trial.draft)) break;
-    const OfWhole whole = of_whole(trial.draft, options);
-    Reached next{std::move(trial), whole};
+    const WholeCoverage whole = of_whole(trial.draft, options);
+    Extended next{std::move(trial), whole};
     const double more = gain(next, best);
     if (more > 0.0) best = std::move(next);
     if (more < kGoesOn) break;
@@ -133,11 +133,11 @@ Reached passed_further(const Reached& start, const std::vector<SurfaceSample>& s
   return best;
 }
 
-FlankFitResult drawn_further(const std::vector<FitTask>& tasks, const FlankFitResult& found, const ToolModel& tool,
-                             const FlankFitOptions& options) {
+FlankFitResult extend_coverage(const std::vector<FitTask>& tasks, const FlankFitResult& found, const ToolModel& tool,
+                               const FlankFitOptions& options) {
   constexpr double kWorth = 0.001;  // of the target: what the samples can tell
   constexpr std::array kSteadiness = {1.0, 10.0};
-  Reached start;
+  Extended start;
   start.polished.draft = make_draft(tasks, tool, options);
   start.polished.draft.motions = found.motions;
   start.polished.draft.tool = found.tool;
@@ -146,12 +146,12 @@ FlankFitResult drawn_further(const std::vector<FitTask>& tasks, const FlankFitRe
   start.whole = of_whole(start.polished.draft, options);
   const std::vector<SurfaceSample> samples = ranking_of_all(start.polished.draft, options);
   for (const double steadiness : kSteadiness) {
-    Reached further = passed_further(start, samples, options, steadiness);
+    Extended further = passed_further(start, samples, options, steadiness);
     if (stopping() || gain(further, start) < kWorth) break;  // a steadier motion would not, either
-    further.polished = settled(further.polished, options);
+    further.polished = repair_closely(further.polished, options);
     further.whole = of_whole(further.polished.draft, options);
     if (gives_up_nothing(further.polished, start.polished, options) && gain(further, start) >= kWorth)
-      return finish(further.polished, options, found);
+      return make_result(further.polished, options, found);
   }
   return found;
 }
@@ -163,7 +163,7 @@ FlankFitResult reach_further(const std::vector<FitTask>& tasks, const FlankFitRe
   FLANK_ASSERT(tasks.size() == found.motions.size());
   if (tasks.empty() || progress.stop() || !is_clean(found.after, options.tolerance_mm)) return found;
   return journaled(
-      progress, "reach further", [&] { return drawn_further(tasks, found, tool, options); }, found);
+      progress, "reach further", [&] { return extend_coverage(tasks, found, tool, options); }, found);
 }
 
 }  // namespace flank::internal

@@ -115,7 +115,7 @@ FlankFitResult fit_rung(const LadderSetup& setup, const std::vector<RuledMotion>
 
 /// Where a rung covers less than the one behind it, it may only have lost its way from the one before: once more from
 /// behind.
-void mend_dips(const LadderSetup& setup, const std::vector<RadiusBounds>& bounds, std::vector<FlankFitResult>& rungs) {
+void refit_dips(const LadderSetup& setup, const std::vector<RadiusBounds>& bounds, std::vector<FlankFitResult>& rungs) {
   constexpr double kDip = 0.005;  // of coverage
   for (std::size_t k = rungs.size(); k-- > 1;) {
     FlankFitResult& rung = rungs[k - 1];
@@ -126,7 +126,7 @@ void mend_dips(const LadderSetup& setup, const std::vector<RadiusBounds>& bounds
 }
 
 /// The rungs on one side of the tool that was found, the nearest first.
-std::vector<FlankFitResult> climb(const LadderSetup& setup, const FlankFitResult& found, bool stiffer) {
+std::vector<FlankFitResult> fit_ladder_side(const LadderSetup& setup, const FlankFitResult& found, bool stiffer) {
   /// Of the coverage of its start: a rung that keeps less has lost its way, and is no start for the next.
   constexpr double kKept = 0.8;
   const double slenderness = slenderness_of(found.tool, setup.options.bounds);
@@ -147,7 +147,7 @@ std::vector<FlankFitResult> climb(const LadderSetup& setup, const FlankFitResult
     rungs.push_back(std::move(fit));
     bounds.push_back(*own);
   }
-  mend_dips(setup, bounds, rungs);
+  refit_dips(setup, bounds, rungs);
   return rungs;
 }
 
@@ -157,8 +157,8 @@ std::vector<FlankFitResult> stiffness_ladder(const std::vector<FitTask>& tasks, 
                                              const ToolModel& tool, const FlankFitOptions& options,
                                              const Progress& progress) {
   FLANK_ASSERT(tasks.size() == found.motions.size());
-  std::vector<FlankFitResult> ladder = climb({tasks, tool, options, progress.part(0.0, 0.5)}, found, true);
-  for (FlankFitResult& rung : climb({tasks, tool, options, progress.part(0.5, 1.0)}, found, false))
+  std::vector<FlankFitResult> ladder = fit_ladder_side({tasks, tool, options, progress.part(0.0, 0.5)}, found, true);
+  for (FlankFitResult& rung : fit_ladder_side({tasks, tool, options, progress.part(0.5, 1.0)}, found, false))
     ladder.push_back(std::move(rung));
   return ladder;
 }
@@ -181,8 +181,8 @@ void note_slenderness(const ToolModel& tool, const FlankFitOptions& options, Fla
                                                found, asked, covers));
 }
 
-FlankFitResult soften(const Target& target, const ToolModel& tool, const FlankFitOptions& options,
-                      FlankFitResult within, const Progress& progress) {
+FlankFitResult relax_stiffness_bounds(const Target& target, const ToolModel& tool, const FlankFitOptions& options,
+                                      FlankFitResult within, const Progress& progress) {
   const bool bounded = options.bounds.slenderest < 1e300 || options.bounds.neck < 1.0;
   if (!tool.free() || !bounded || progress.stop()) return within;
   FlankFitOptions lifted = options;

@@ -9,8 +9,9 @@ namespace flank::internal {
 
 /// What a fit within the bounds of options.bounds is worth when they are lifted. `within` fell short of what was asked:
 /// slenderness and neck are lifted, and if that is better (fit/rank.h), the slenderness is brought back as far as it stays so. A note says so, with the figures. `within` itself if the tool is given, or if nothing is gained.
-[[nodiscard]] FlankFitResult soften(const Target& target, const ToolModel& tool, const FlankFitOptions& options,
-                                    FlankFitResult within, const Progress& progress);
+[[nodiscard]] FlankFitResult relax_stiffness_bounds(const Target& target, const ToolModel& tool,
+                                                    const FlankFitOptions& options, FlankFitResult within,
+                                                    const Progress& progress);
 
 /// Free tools of other slendernesses than that of the one that was `found`: a ladder of them, as far as the tool's bounds
 /// let it go, each fitted from the next one nearer to the found one, or, where that loses its way, from the next one

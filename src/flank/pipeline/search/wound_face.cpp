@@ -237,8 +237,8 @@ Setup half_turn_of(const Setup& setup, const WoundFace& wound) {
   return half;
 }
 
-RuledMotion unwound(const WoundFace& wound, const Target& half_turn, const ObstacleField* obstacles,
-                    const RuledMotion& motion, const RadialFunction& tool, double tolerance_mm) {
+RuledMotion extend_along_screw(const WoundFace& wound, const Target& half_turn, const ObstacleField* obstacles,
+                               const RuledMotion& motion, const RadialFunction& tool, double tolerance_mm) {
   constexpr int kControlPoints = 24, kPoses = 8 * kControlPoints;  // a turn
   constexpr double kPastEnd = 0.03;                                // of a turn
   const Pose line = motion.pose(0.5);

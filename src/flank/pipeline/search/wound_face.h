@@ -35,7 +35,8 @@ struct WoundFace {
 
 /// The middle pose of a motion on the half turn, moved with the screw for as long as it touches the face, and no farther than
 /// where the flank enters an obstacle deeper than in the middle. `half_turn`: the target of the motion.
-[[nodiscard]] RuledMotion unwound(const WoundFace& wound, const Target& half_turn, const ObstacleField* obstacles,
-                                  const RuledMotion& motion, const RadialFunction& tool, double tolerance_mm);
+[[nodiscard]] RuledMotion extend_along_screw(const WoundFace& wound, const Target& half_turn,
+                                             const ObstacleField* obstacles, const RuledMotion& motion,
+                                             const RadialFunction& tool, double tolerance_mm);
 
 }  // namespace flank::internal

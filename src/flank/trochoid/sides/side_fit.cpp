@@ -82,7 +82,7 @@ void code(StepCodec& codec, RadiusFit& fit) {
 }
 
 /// The draft is one of these sides, in turn.
-void tie(FitDraft& draft, const CavitySide& left, const CavitySide& right) {
+void reattach_targets(FitDraft& draft, const CavitySide& left, const CavitySide& right) {
   draft.targets.clear();
   draft.obstacles.clear();
   for (std::size_t m = 0; m < draft.motions.size(); ++m) {
@@ -175,7 +175,7 @@ Candidate SideFitter::quick(const SideStart& start, const FlankFitOptions& asked
   FitDraft draft = start_draft(tasks, tool_, start.radius_mm);
   draft.facing = options_.facing;
   FitStage stage = quick_stage(robust_scale(*left_.target, fit));
-  if (draft.facing) keep_going(stage, kQuickParallel * fit.tolerance_mm, left_.target->diagonal());
+  if (draft.facing) set_motion_weights(stage, kQuickParallel * fit.tolerance_mm, left_.target->diagonal());
   rank(draft, candidate);
   // A start may be nearly done, as along the lines of ruled walls, and a coarse pass then only does harm.
   rank(run_stage(draft, fit.bounds, stage), candidate);
@@ -216,7 +216,7 @@ RadiusFit SideFitter::fit_radius(const RadiusStart& first) const {
   // near to one is.
   const bool envelope = out.polished.estimate.rms_mm <= kEnvelope * left_.target->diagonal();
   if (options_.facing && out.polished.exact && !envelope)
-    out.polished = straightened(out.polished, options_.least_coverage, samples_, fit, &out.trace);
+    out.polished = reduce_stagger(out.polished, options_.least_coverage, samples_, fit, &out.trace);
   out.polished = with_axial_ends_cut(std::move(out.polished), samples_, fit);
   return out;
 }
@@ -260,7 +260,7 @@ SideFit search_radii(const CavitySide& left, const CavitySide& right, const Tool
     if (progress.stop() && !best.draft.motions.empty()) break;
     RadiusFit tried = journaled(
         progress, "radius", [&] { return fitter.fit_radius(start); }, start);
-    tie(tried.polished.draft, left, right);
+    reattach_targets(tried.polished.draft, left, right);
     ++out.tried_radii;
     out.fit.candidates += tried.starts;
     if (tried.polished.draft.motions.empty()) continue;
@@ -284,8 +284,9 @@ SideFit search_radii(const CavitySide& left, const CavitySide& right, const Tool
   const FlankFitOptions fit = possible(options.fit, best.draft.tool.axis_length());
   out.settled = !tool.free() || !falls_short(left, right, best, options);
   out.facing = options.facing;
-  const Polished close = out.settled ? settled(without_overcut(best, fitter.samples(), fit), fit) : std::move(best);
-  out.fit = finish(close, fit, std::move(out.fit));
+  const Polished close =
+      out.settled ? repair_closely(without_overcut(best, fitter.samples(), fit), fit) : std::move(best);
+  out.fit = make_result(close, fit, std::move(out.fit));
   return out;
 }
 
@@ -362,10 +363,10 @@ SideFit settle_sides(const CavitySide& left, const CavitySide& right, SideFit si
     polished.draft.free_tool = true;
     polished.draft.facing = sides.facing;
     polished.estimate = sides.fit.after;
-    tie(polished.draft, left, right);
+    reattach_targets(polished.draft, left, right);
     const FlankFitOptions fit = possible(options.fit, sides.fit.tool.axis_length());
     SideFit out = sides;
-    out.fit = finish(flank::internal::settled(polished, fit), fit, std::move(out.fit));
+    out.fit = make_result(flank::internal::repair_closely(polished, fit), fit, std::move(out.fit));
     out.settled = true;
     return out;
   };

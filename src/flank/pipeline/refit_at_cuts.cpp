@@ -1,0 +1,28 @@
+#include "flank/pipeline/refit_at_cuts.h"
+
+#include <algorithm>
+
+#include "flank/fit/polish.h"
+
+namespace flank::internal {
+
+bool refit_at_cuts(double tolerance_mm, FitSearch& search, const VerifyReport& verify) {
+  constexpr double kDenser = 3.0;  // in each direction: a ridge shows one place to the judge, and many to the samples
+  if (search.fit.motions.empty() || verify.overcut_mm > kMendable * tolerance_mm) return false;
+  FlankFitOptions options = search.options;
+  options.sample_share /= kDenser;
+  for (const FaceVerdict& face : verify.faces)
+    if (face.target && face.deepest) options.extra_overcut_points.push_back(face.deepest->point);
+  for (const WorstPlace& place : verify.worst) {
+    const bool target = std::any_of(verify.faces.begin(), verify.faces.end(),
+                                    [&](const FaceVerdict& f) { return f.target && f.face == place.face; });
+    if (target && place.f < -tolerance_mm) options.extra_overcut_points.push_back(place.point);
+  }
+  if (!(verify.overcut_mm > tolerance_mm) || options.extra_overcut_points.empty()) return false;
+  std::optional<FlankFitResult> mended = mend_fit(search.tasks(), search.fit, search.tool, options);
+  if (!mended) return false;
+  search.fit = std::move(*mended);
+  return true;
+}
+
+}  // namespace flank::internal
