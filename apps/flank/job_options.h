@@ -29,7 +29,9 @@ CLI::Option* add_option(CLI::App& app, const std::string& flag, const internal::
       member.clear();
       for (const std::string& word : words) internal::read_word(info, word, member);
     };
-    return app.add_option_function<std::vector<std::string>>(flag, read, help)->allow_extra_args(false);
+    // An option takes one word and may be given again; words without an option are all that are left.
+    return app.add_option_function<std::vector<std::string>>(flag, read, help)
+        ->allow_extra_args(!flag.starts_with('-'));
   } else if constexpr (std::is_same_v<Member, bool>) {
     if (info.spelling == internal::Spelling::kFlag) return app.add_flag(flag, member, help);
     return app.add_option_function<std::string>(

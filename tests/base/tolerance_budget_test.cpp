@@ -99,7 +99,7 @@ TEST(ToleranceBudget, EveryLinkCountsInItsChains) {
 TEST(ToleranceBudget, NoPlannerMultipliesTheToleranceByABareNumber) {
   const std::regex product(R"((^|[^\w.])\d+(\.\d*)?(e-?\d+)? \* ([a-z_]+\.)*tolerance|tolerance\w* \* \d)");
   int files = 0;
-  for (const char* room : {"fit", "strip", "cover", "choose", "trochoid", "obstacle", "setup", "pipeline"}) {
+  for (const char* room : {"fit", "strip", "cover", "tool_choice", "trochoid", "obstacle", "setup", "pipeline"}) {
     for (const auto& entry :
          std::filesystem::recursive_directory_iterator(std::string(FLANK_SOURCE_DIR) + "/src/flank/" + room)) {
       if (entry.path().extension() != ".cpp") continue;

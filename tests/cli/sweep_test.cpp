@@ -63,7 +63,7 @@ TEST_F(SweepCli, APlanIsRefusedByItsLineBeforeAnythingRuns) {
                       "line 7, column 16: tolerence_mm: is not a field of cover");
   expect_plan_refused(head + faces + tools + "[options]\ntolerance_mm = -1\n",
                       "line 7, column 16: tolerance_mm: -1: expected a length > 0 mm");
-  expect_plan_refused(head + faces + tools + "[options]\nfaces = \"F1\"\n", "is not an option");
+  expect_plan_refused(head + faces + tools + "[options]\nfaces = \"F1\"\n", "is set by the plan for each task");
   expect_plan_refused(head + faces + tools + "[variants.fine]\nstrips = \"many\"\n", "line 7, column 10: strips: many");
   expect_plan_refused(head + faces + tools + "[variants.\"../out\"]\n", "letters, digits");
   expect_plan_refused(head + faces + tools + "colour = 1\n", "line 6, column 1: unknown key \"colour\"");

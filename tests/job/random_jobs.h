@@ -29,9 +29,10 @@ inline std::string nasty_text(Random& random) {
 inline void randomise(const FieldInfo& info, std::string& value, Random& random) {
   if (info.accepted.text) {
     for (const char* word :
-         {"mm",           "cm",    "m",         "in",       "grow",   "curves",  "grid",   "shape", "tapered",
-          "any",          "quick", "normal",    "thorough", "feed",   "optimal", "volume", "plain", "climb",
-          "conventional", "both",  "catalogue", "ramp",     "plunge", "keep",    "largest"})
+         {"mm",           "cm",    "m",         "in",       "grow",   "curves",  "grid",    "shape", "tapered",
+          "any",          "quick", "normal",    "thorough", "feed",   "optimal", "volume",  "plain", "climb",
+          "conventional", "both",  "catalogue", "ramp",     "plunge", "keep",    "largest", "auto",  "none",
+          "flood",        "mist",  "bottom",    "bore"})
       if (info.accepted.text(word) && random.uniform() < 0.5) value = word;
     if (!info.accepted.text(value))
       for (const char* word : {"in", "curves", "shape", "any", "quick", "optimal", "plain", "conventional", "both",

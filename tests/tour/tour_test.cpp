@@ -176,7 +176,7 @@ TEST(Tour, LeavesARoundCornerThatIsTighterThanTheTool) {
   const std::optional<Tour> tour = make_tour(request_of(walls));
   ASSERT_TRUE(tour);
   EXPECT_EQ(tour->motions.size(), 4U);
-  EXPECT_TRUE(says(*tour, "C0 is left"));
+  EXPECT_TRUE(says(*tour, "C0 is not machined"));
   for (const RuledMotion& motion : tour->motions) EXPECT_GT(nearness(walls, motion, kRadius).deepest, -1e-4);
 }
 

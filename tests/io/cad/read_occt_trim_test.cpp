@@ -166,7 +166,7 @@ TEST(ReadTrim, ATrimKeepsNearItsSurface) {
   EXPECT_EQ(refused({1.9, 0.5}), "accepted");
   EXPECT_EQ(refused({3.9, -0.9}), "accepted") << "borders need not end at the surface's own";
   EXPECT_NE(refused({4.1, 0.5}).find("F1: one of its trims reaches the parameters (4.1, 0.5)"), std::string::npos);
-  EXPECT_NE(refused({1.0, -1e300}).find("far beyond"), std::string::npos);
+  EXPECT_NE(refused({1.0, -1e300}).find("far outside"), std::string::npos);
   EXPECT_NE(refused({NAN, 0.5}).find("not finite"), std::string::npos);
   EXPECT_NE(refused({1.9, 0.5},
                     [](auto& e) {

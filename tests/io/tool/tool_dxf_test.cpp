@@ -176,7 +176,7 @@ TEST(ToolDxf, BadFilesAreRefusedByName) {
       {light_polyline(line, "10\nwide\n"), "\"wide\" is not a finite number"},
       {light_polyline({{0, 2}}), "no lines, arcs"},
       {light_polyline({{0, 2}, {3, 2}, {1, 4}, {5, 4}}), "undercut"},
-      {light_polyline({{0, 2}, {0, 4}}), "no open outline"}};
+      {light_polyline({{0, 2}, {0, 4}}), "one open outline"}};
   for (const auto& [text, expected] : corpus) {
     const std::string message = refusal(text);
     EXPECT_EQ(message.rfind("t.dxf: ", 0), 0u) << message;
