@@ -78,8 +78,9 @@ Subcommand add_post(CLI::App& parser) {
       "Example: flank example twisted-blade -o blade.step && flank fit blade.step --face F1 --tolerance 0.1 -o out; "
       "flank post out --machine linuxcnc-xyzac-trt --spindle 8000 --feed 1000 -o blade.ngc && flank verify out --nc "
       "blade.ngc --machine "
-      "linuxcnc-xyzac-trt\nSeveral operations, each with its own tool: flank post rough finish --machine fanuc-ac "
-      "--material steel --flutes 4 -o part.nc && flank verify rough finish --nc part.nc --machine fanuc-ac");
+      "linuxcnc-xyzac-trt\nSeveral operations, each with its own tool: flank post rough finish --machine "
+      "linuxcnc-xyzac-trt "
+      "--material steel --flutes 4 -o part.nc && flank verify rough finish --nc part.nc --machine linuxcnc-xyzac-trt");
   const auto run = [job, output](const CommonOptions& common) {
     std::vector<std::string> folders{job->folder};
     folders.insert(folders.end(), job->more_folders.begin(), job->more_folders.end());

@@ -50,9 +50,10 @@ Subcommand add_setup(CLI::App& parser) {
   app->add_option("--setup", job->setup, "Set-up of the part x,y,z,a,b,c (mm, degrees). Default: the program's own");
   app->add_option("-o,--output", *output, "Page to write (HTML)")->required();
   app->footer(
-      "Example: flank post out --machine fanuc-ac --spindle 8000 --feed 1000 -o part.nc && flank setup out --nc "
+      "Example: flank post out --machine linuxcnc-xyzac-trt --spindle 8000 --feed 1000 -o part.nc && flank setup out "
+      "--nc "
       "part.nc "
-      "--machine fanuc-ac -o setup.html");
+      "--machine linuxcnc-xyzac-trt -o setup.html");
   return {app,
           [job, output](const CommonOptions& common) { return write_sheet(*job, *output, common); },
           {{"folder", "DIR"}, {"nc", "--nc"}, {"machine", "--machine"}, {"setup", "--setup"}}};

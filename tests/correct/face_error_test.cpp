@@ -99,7 +99,8 @@ TEST_F(FaceErrorTest, LeavesOutPointsThatAreFarOffAndNamesThem) {
 
 TEST_F(FaceErrorTest, RefusesWhatIsNoScanOfTheFace) {
   EXPECT_NE(refusal(scanned(face_, 60, {}, 4)).find("at least 100"), std::string::npos);
-  EXPECT_NE(refusal(scanned(face_, 1000, {.shift = Vec3(0, 0, 40)}, 4)).find("another face, or in another datum"),
+  EXPECT_NE(refusal(scanned(face_, 1000, {.shift = Vec3(0, 0, 40)}, 4))
+                .find("belong to another face, or the points have another datum"),
             std::string::npos);
   EXPECT_NE(refusal(scanned(face_, 1000, {.u_end = 0.5}, 4)).find("% of the face"), std::string::npos);
 }

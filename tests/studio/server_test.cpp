@@ -171,7 +171,7 @@ TEST_F(StudioServer, OneFolderHasOneStudio) {
   const cli::Outcome second =
       cli::run_program(FLANK_BINARY, {"studio", "-o", (root_ / "studio").string(), "--no-browser"}, root_);
   EXPECT_EQ(second.exit_code, 3);
-  EXPECT_NE(second.err.find("another studio has this folder"), std::string::npos) << second.err;
+  EXPECT_NE(second.err.find("another studio uses this folder"), std::string::npos) << second.err;
 }
 
 TEST_F(StudioServer, AKilledStudioLosesNothing) {
