@@ -134,6 +134,7 @@ TEST_F(AstrayEntry, AVertexThatIsOfAnotherEdgeIsTold) {
   const std::string gap = "the parts of its border are up to ";
   EXPECT_FALSE(says(read_part(blade), gap));
   EXPECT_TRUE(says(changed(blade, "\n+7 0 -7 0 *", "\n+7 0 +9 0 *"), gap));
+  EXPECT_TRUE(says(changed(blade, "\n+7 0 -7 0 *", "\n+7 0 +7 0 *"), gap)) << "it begins twice and does not end";
 }
 
 // An arc that runs the other way round its circle: the border winds round the cone, and the kernel closes it over the apex.

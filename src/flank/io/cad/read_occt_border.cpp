@@ -30,17 +30,28 @@ constexpr double kGapMm = 0.05, kGapShare = 1e-3;
 /// damaged.
 constexpr double kAlong = 10.0;
 
-/// How far the curve of an edge ends from the vertices of the edge, or a vertex of the edge from both ends.
+/// The farthest that a bounded curve goes from where it begins, at a few places.
+double reach_of(const Geom_Curve& curve, double first, double last) {
+  constexpr int kPlaces = 8;
+  double reach = 0.0;
+  for (int k = 1; k <= kPlaces; ++k)
+    reach = std::max(reach, curve.Value(first + (last - first) * k / kPlaces).Distance(curve.Value(first)));
+  return reach;
+}
+
+/// How far the curve of an edge ends from the vertices of the edge, or a vertex of the edge from both ends. Where an edge begins and
+/// does not end, all of it is in doubt.
 double gap_at_ends(const TopoDS_Edge& edge) {
   double first = 0.0, last = 0.0, gap = 0.0;
   const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, first, last);
   if (curve.IsNull()) return gap;
-  for (const auto& [t, vertex] :
-       {std::pair(first, TopExp::FirstVertex(edge)), std::pair(last, TopExp::LastVertex(edge))})
+  const TopoDS_Vertex from = TopExp::FirstVertex(edge), to = TopExp::LastVertex(edge);
+  for (const auto& [t, vertex] : {std::pair(first, from), std::pair(last, to)})
     if (!vertex.IsNull() && !Precision::IsInfinite(t))
       gap = std::max(gap, curve->Value(t).Distance(BRep_Tool::Pnt(vertex)));
   if (Precision::IsInfinite(first) || Precision::IsInfinite(last)) return gap;
-  // Of two vertices that begin an edge the kernel takes the first, and an end without one it does not miss.
+  if (from.IsNull() != to.IsNull()) gap = std::max(gap, reach_of(*curve, first, last));
+  // Of two vertices that begin an edge the kernel takes the first.
   const gp_Pnt begin = curve->Value(first), end = curve->Value(last);
   for (TopExp_Explorer it(edge, TopAbs_VERTEX); it.More(); it.Next()) {
     if (it.Current().Orientation() == TopAbs_INTERNAL) continue;
