@@ -201,7 +201,7 @@ test('what stiffness costs is drawn for the tools that were tried', async () => 
   assert.equal(await page.value(`document.querySelectorAll('#stiffness svg').length`), 2);
   assert.equal(await page.value(`document.querySelectorAll('#stiffness circle.ring').length`), 3);
   assert.equal(await page.value(`document.querySelectorAll('#stiffness circle.estimate').length`), 3);
-  assert.match(await page.value(text('#stiffness')), /3 tools were tried; the ring is the one that was chosen \(λ 4\.20\)/);
+  assert.match(await page.value(text('#stiffness')), /3 tools were tried; the ring is the one that was chosen \(L:D 4\.20\)/);
   await page.close();
   summary.stiffness.length = 2;
   writeFileSync(join(copy, 'summary.json'), JSON.stringify(summary));
@@ -285,7 +285,7 @@ test('a file without what belongs into it costs only what it would have shown', 
     must('report', hollow);
     const page = await open(hollow);
     assert.deepEqual(page.complaints, [], file);
-    assert.match(await page.value(text('#notices')), /is missing here/);
+    assert.match(await page.value(text('#notices')), /cannot be shown/);
     assert.match(await page.value(text('#made')), /OpenFlank/);
     await page.close();
     writeFileSync(join(hollow, file), kept);
@@ -315,7 +315,7 @@ test('without WebGL the figures are still there', async () => {
   const plain = new Browser(['--disable-3d-apis']);
   try {
     const page = await plain.open(join(folder, 'report.html'));
-    assert.match(await page.value(text('#notices')), /missing here: this browser offers no WebGL 2/);
+    assert.match(await page.value(text('#notices')), /cannot be shown: this browser offers no WebGL 2/);
     assert.deepEqual(page.complaints, []);
     assert.ok(await page.value('document.querySelectorAll("[data-key]").length') >= 7);
     await page.close();

@@ -113,7 +113,7 @@ test('what is not known is not green', async () => {
     const { pill, said } = await tell(page, spoilt(name, change));
     assert.equal(pill.state, state, name);
     assert.match(pill.text, words, name);
-    assert.ok(said.some(({ text, state: tone }) => /no manifest\.json here: nothing says that these files belong together/.test(text) && tone === 'warn'), name);
+    assert.ok(said.some(({ text, state: tone }) => /The folder has no manifest\.json, so these files may be edited/.test(text) && tone === 'warn'), name);
   }
   await page.close();
 });
