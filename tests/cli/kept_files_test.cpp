@@ -150,9 +150,6 @@ TEST_F(CliKept, NoCommandThatWritesAFolderWritesWhatItReads) {
         {"vice.step", "F1-1.task.json"}}},
       {with({"design", part, "--faces", "F1", "--tools", "1"}, obstacles),
        {{"barrel.step", "design.json"}, {"vice.step", "design.csv"}, {"holder.txt", "design.html"}}},
-      {{"bound", part, "--map", "--tool", path("tools/one.json")},
-       {{"barrel.step", "map.json"}, {"tools/one.json", "map.html"}}},
-      {{"redesign", part, "--face", "F1", "--tolerance", "0.1"}, {{"barrel.step", "redesigned.step"}}},
   };
   for (const FolderCommand& command : commands)
     for (const auto& [read, written] : command.reads)
