@@ -137,6 +137,13 @@ TEST_F(AstrayEntry, AVertexThatIsOfAnotherEdgeIsTold) {
   EXPECT_TRUE(says(changed(blade, "\n+7 0 -7 0 *", "\n+7 0 +7 0 *"), gap)) << "it begins twice and does not end";
 }
 
+// A border that runs along one edge twice the same way leaves another one out.
+TEST_F(AstrayEntry, AnEdgeThatIsThereTwiceIsTold) {
+  FLANK_REAL_PART(blade, "zoo/occt_bug26264_blade.brep");
+  for (const char* twice : {"-8 0 -6 0 -6 0 +4 0 *", "-8 0 -6 0 -8 0 +4 0 *"})
+    EXPECT_TRUE(says(changed(blade, "-8 0 -6 0 +5 0 +4 0 *", twice), "the parts of its border are up to ")) << twice;
+}
+
 // An arc that runs the other way round its circle: the border winds round the cone, and the kernel closes it over the apex.
 TEST_F(AstrayEntry, AnArcThatRunsTheOtherWayIsTold) {
   FLANK_REAL_PART(pocket, "peer/draft_pocket_r6.step");

@@ -9,6 +9,7 @@
 #include <Precision.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopTools_MapOfOrientedShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Vertex.hxx>
@@ -117,9 +118,12 @@ double border_gap(const TopoDS_Face& face) {
     gap = std::max(gap, BRep_Tool::Tolerance(TopoDS::Vertex(it.Current())));
   }
   const double most = std::max(kGapMm, kGapShare * size.diagonal());
+  TopTools_MapOfOrientedShape seen;
   for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next()) {
     const TopoDS_Edge edge = TopoDS::Edge(it.Current());
     gap = std::max({gap, BRep_Tool::Tolerance(edge), gap_at_ends(edge), gap_along(edge, face, most)});
+    // Along a seam a border runs both ways; along an edge the same way twice it does not close.
+    if (!seen.Add(edge)) gap = std::max(gap, size.diagonal());
   }
   return gap > most ? gap : 0.0;
 }
