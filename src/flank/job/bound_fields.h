@@ -6,6 +6,7 @@
 
 #include "flank/job/bound_job.h"
 #include "flank/job/fields.h"
+#include "flank/job/other_faces_fields.h"
 
 namespace flank::internal::accepted {
 
@@ -35,12 +36,7 @@ void visit_fields(Job& job, Visitor&& visit) {
         job.points);
   visit(FieldInfo{"gap", "", "", "Accept a bound that is at most this share above the contact found there", kGap},
         job.gap);
-  visit(FieldInfo{"check_faces", "", "Other faces",
-                  "Faces that the tool must not gouge, as F88,F12. Default: all faces that are not machined"},
-        job.check_faces);
-  visit(FieldInfo{"ignore_faces", "", "Other faces",
-                  "Faces that the tool may cut into. S2-S5 names all faces of solids 2 to 5"},
-        job.ignore_faces);
+  visit_other_faces(job, visit);
 }
 
 inline std::string_view command_name(const BoundJob&) { return "bound"; }

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "flank/job/fields.h"
+#include "flank/job/other_faces_fields.h"
 #include "flank/job/redesign_job.h"
 
 namespace flank::internal::accepted {
@@ -45,12 +46,7 @@ void visit_fields(Job& job, Visitor&& visit) {
                   "Scale of the search, and limit in the deviation map. Default: as of flank fit", kLength},
         job.tolerance_mm);
   visit_radius(job.radius, visit);
-  visit(FieldInfo{"check_faces", "", "Other faces",
-                  "Faces that the tool must not gouge, as F88,F12. Default: all faces that are not machined"},
-        job.check_faces);
-  visit(FieldInfo{"ignore_faces", "", "Other faces",
-                  "Faces that the tool may cut into. S2-S5 names all faces of solids 2 to 5"},
-        job.ignore_faces);
+  visit_other_faces(job, visit);
 }
 
 inline std::string_view command_name(const RedesignJob&) { return "redesign"; }

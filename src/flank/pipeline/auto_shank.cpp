@@ -39,9 +39,8 @@ Result with_auto_shank(const Job& job, const Progress& progress,
   }
   if (with.obstacles.shank_length_mm)
     found.notes.push_back(fmt::format(
-        "the shank was chosen: diameter {:.4g} mm, {:g} mm above the flank, where it is out of the part; give another "
-        "one "
-        "by `shank_length_mm`, none by `shank` none",
+        "the shank was chosen: diameter {:.4g} mm, {:g} mm above the flank, where it is out of the part; "
+        "`shank_length_mm` gives another one, `shank` none leaves it out",
         found.tool.shank.empty() ? 0.0 : 2.0 * found.tool.shank.back().y(), *with.obstacles.shank_length_mm));
   return found;
 }
