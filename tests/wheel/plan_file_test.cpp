@@ -71,7 +71,9 @@ TEST(WheelVerdict, FiguresAreSummedByTheRolesOfFaces) {
     report.faces.push_back(verdict);
   };
   add("F1", 100.0, 0.5, 1.0, 0.01);
-  add("F2", 100.0, 0.5, 0.0, 0.03);
+  // Pieces of a face that is folded.
+  add("F2a", 60.0, 0.5, 0.0, 0.03);
+  add("F2b", 40.0, 0.5, 0.0, 0.02);
   add("F9", 10.0, 1.0, 0.9, 0.0);
   const std::vector<RoleFigures> figures = role_figures(roles, report);
   ASSERT_EQ(figures.size(), 2U);

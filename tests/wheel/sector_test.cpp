@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "flank/error.h"
@@ -57,17 +58,63 @@ TEST(WheelSector, OneBladeAloneHasNoChannel) {
   EXPECT_THROW((void)make_sector(roles), InputError);
 }
 
+TEST(WheelSector, APieceOfAWheelHasAllCopiesAndNeighboursThatItLacks) {
+  WheelRoles roles = three_mains();
+  roles.count = 36, roles.whole = false;
+  roles.blades = {blade(false, 10.0, "F1", "F2"), blade(true, 14.0, "F5", "F6"), blade(false, 20.0, "F3", "F4")};
+  const WheelSector sector = make_sector(roles);
+  EXPECT_EQ(sector.copies, 36);
+  const std::vector<MissingBlade> missing = missing_beside(roles, sector);
+  ASSERT_EQ(missing.size(), 3U);
+  EXPECT_EQ(missing[0].blade.ahead, Names{"F1"});
+  EXPECT_EQ(missing[0].turns, -1);
+  EXPECT_EQ(missing[1].blade.ahead, Names{"F5"});
+  EXPECT_EQ(missing[2].turns, 1);
+  EXPECT_TRUE(missing_beside(three_mains(), make_sector(three_mains())).empty());
+}
+
+TEST(WheelSector, AHubThatGoesAllRoundIsOneSectorWithTheBladesThatItHas) {
+  WheelRoles piece = three_mains();
+  piece.count = 7, piece.whole = false;
+  piece.blades = {blade(false, 10.0, "F1", "F2"), blade(true, 30.0, "F5", "F6"), blade(false, 61.0, "F3", "F4")};
+  EXPECT_EQ(as_planned(piece, false).count, 7);
+  const WheelRoles roles = as_planned(piece, true);
+  const WheelSector sector = make_sector(roles);
+  EXPECT_EQ(sector.copies, 1);
+  EXPECT_EQ(sector.sides(), (Names{"F1", "F2", "F5", "F6", "F3", "F4"}));
+  ASSERT_EQ(sector.channels.size(), 3U);
+  EXPECT_EQ(sector.channels[2].first, Names{"F3"});
+  EXPECT_EQ(sector.channels[2].second, Names{"F2"});
+  EXPECT_EQ(all_sectors(roles).size(), 1U);
+  EXPECT_TRUE(missing_beside(roles, sector).empty());
+}
+
+TEST(WheelSector, AHubIsCountedBySectors) {
+  WheelRoles roles = three_mains();
+  roles.count = 12, roles.hub = {"F9"};
+  WheelFace hub;
+  hub.id = "F9";
+  const auto fill = [&](double degrees) {
+    hub.samples.clear();
+    for (double deg = 0.0; deg <= degrees; deg += 5.0) {
+      const double a = deg * std::numbers::pi / 180.0;
+      hub.samples.push_back({Vec3(20.0 * std::cos(a), 20.0 * std::sin(a), 0.0), Vec3::UnitZ()});
+    }
+    return sectors_of_hub(roles, {hub});
+  };
+  EXPECT_NEAR(fill(90.0), 3.0, 1e-9);
+  EXPECT_EQ(fill(355.0), 12.0);
+}
+
 TEST(WheelSector, CopiesAreTurnedByExactlyAPitchEach) {
   WheelAxis axis;
   Path path;
   path.strips.push_back({1, "flank", "F1", {{Vec3(5.0, 0.0, 1.0), Vec3(1.0, 0.0, 1.0).normalized()}}});
-  const Path whole = copied(path, axis, 0.5 * std::numbers::pi, 4, true);
+  const Path whole = copied(path, axis, 0.5 * std::numbers::pi, 4);
   ASSERT_EQ(whole.strips.size(), 4U);
   EXPECT_LT((whole.strips[1].poses[0].tip - Vec3(0.0, 5.0, 1.0)).norm(), 1e-14);
   EXPECT_LT((whole.strips[3].poses[0].tip - Vec3(0.0, -5.0, 1.0)).norm(), 1e-14);
   for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(whole.strips[k].id, static_cast<int>(k) + 1);
-  // In a part that is a sector the blades may lie on either side of the one that was computed.
-  EXPECT_EQ(copied(path, axis, 0.1, 3, false).strips.size(), 5U);
 }
 
 }  // namespace

@@ -36,18 +36,15 @@ Names faces_of(const std::vector<WheelBlade>& blades, const FacesOfBlade& which)
 FloorChannel around(WheelWork& work) {
   FloorChannel out;
   out.axis = work.roles.axis;
-  Names walls = wall_faces(work.roles);
-  walls.insert(walls.end(), work.roles.hub.begin(), work.roles.hub.end());
-  out.walls = work.targets.of(walls);
+  out.walls = work.walls();
+  for (const Target* floor : work.floor()) out.walls.push_back(floor);
   out.coarse = &work.coarse_triangles();
   return out;
 }
 
 Path passes_along(WheelWork& work, const std::string& kind, const Names& faces, bool only_rest) {
   const FloorChannel place = around(work);
-  PointOptions options;
-  options.tolerance_mm = work.job.tolerance_mm;
-  options.turn_window_mm = work.turn_window();
+  PointOptions options = work.point_options();
   const FinishedPlaces finished(work.finish.strips, work.tool->radial, kFinishedShare * work.job.tolerance_mm);
   Path out;
   for (const std::string& name : faces) {

@@ -16,15 +16,27 @@ std::optional<Face> FaceTargets::face(const std::string& name) const {
   return part_.faces[static_cast<std::size_t>(parse_face_list(part_, name).front())];
 }
 
+std::unique_ptr<Target> FaceTargets::make(const std::string& name, const Eigen::Isometry3d& turn) const {
+  if (std::optional<Face> own = face(name)) {
+    for (Vec3& pole : own->surface.poles) pole = turn * pole;
+    return make_target({std::move(*own)}, +1);
+  }
+  TriangleMesh mesh = extract_mesh(part_, parse_face_list(part_, name));
+  for (Vec3& vertex : mesh.vertices) vertex = turn * vertex;
+  return make_target(std::move(mesh));
+}
+
 std::vector<const Target*> FaceTargets::of(const std::vector<std::string>& faces) {
+  return turned(faces, WheelAxis(), 0.0, 0);
+}
+
+std::vector<const Target*> FaceTargets::turned(const std::vector<std::string>& faces, const WheelAxis& axis,
+                                               double pitch_rad, int turns) {
+  const Eigen::Isometry3d turn = turns != 0 ? axis.turn(turns * pitch_rad) : Eigen::Isometry3d::Identity();
   std::vector<const Target*> out;
   for (const std::string& name : faces) {
-    std::unique_ptr<Target>& target = known_[name];
-    if (!target) {
-      std::optional<Face> own = face(name);
-      target =
-          own ? make_target({std::move(*own)}, +1) : make_target(extract_mesh(part_, parse_face_list(part_, name)));
-    }
+    std::unique_ptr<Target>& target = known_[{name, turns}];
+    if (!target) target = make(name, turn);
     out.push_back(target.get());
   }
   return out;

@@ -60,9 +60,7 @@ Path floor_path(WheelWork& work) {
   for (const WheelSector& sector : sectors)
     for (const SectorChannel& channel : sector.channels) {
       const FloorChannel place = floor_channel(work, channel);
-      PointOptions options;
-      options.tolerance_mm = work.job.tolerance_mm;
-      options.turn_window_mm = work.turn_window();
+      PointOptions options = work.point_options();
       options.is_finished = FinishedPlaces(side_strips(work, channel), work.tool->radial, 0.9 * work.job.tolerance_mm);
       for (Strip& strip :
            point_passes(place, work.tool->radial, options, face_list(work.roles.hub), face_list(channel.first),
@@ -78,12 +76,16 @@ Path floor_path(WheelWork& work) {
 FloorChannel floor_channel(WheelWork& work, const SectorChannel& channel) {
   FloorChannel out;
   out.axis = work.roles.axis;
-  out.floor = work.targets.of(work.roles.hub);
+  out.floor = work.floor();
   out.first = work.targets.of(with_fillets(work, channel.first, work.targets));
   out.second = work.targets.of(with_fillets(work, channel.second, work.targets));
-  out.walls = work.targets.of(wall_faces(work.roles));
+  out.walls = work.walls();
   out.coarse = &work.coarse_triangles();
-  for (const WheelBlade& blade : work.sector.blades) out.blade_mm = std::max(out.blade_mm, blade.thickness_mm);
+  for (const WheelBlade& blade : work.sector.blades) {
+    double foot = blade.thickness_mm;
+    for (const RootFillet& fillet : blade.fillets) foot = std::max(foot, blade.thickness_mm + 2.0 * fillet.high_mm);
+    out.blade_mm = std::max(out.blade_mm, foot);
+  }
   return out;
 }
 
@@ -99,7 +101,7 @@ WheelOperation floor_operation(WheelWork& work, const Progress&) {
     Path path = guarded(work, floor_path(work));
     if (path.strips.empty()) throw InputError("no gouge-free pass on the hub was found between the blades");
     // The folder is about one sector: of a hub that goes all round it finishes its share.
-    const double share = work.equal() && work.roles.whole ? 1.0 / work.roles.count : 1.0;
+    const double share = work.equal() ? 1.0 / work.sectors_of_hub() : 1.0;
     return judged_path(work, operation.faces, std::move(path), 0.9 * share * work.job.least_coverage, Care::kDraft);
   });
   take(work, operation);

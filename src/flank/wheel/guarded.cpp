@@ -68,8 +68,7 @@ Path guarded(WheelWork& work, const Path& path, const RadialFunction& radial, do
     free[n] = guard.is_free(poses[all[n].second], poses[all[n].second + 1]) ? 1 : 0;
   });
   Path out;
-  PointOptions options;
-  options.tolerance_mm = work.job.tolerance_mm, options.turn_window_mm = work.turn_window();
+  const PointOptions options = work.point_options();
   std::size_t n = 0;
   for (const Strip& strip : path.strips) {
     Strip run = strip;

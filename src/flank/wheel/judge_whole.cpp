@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "flank/io/face_names.h"
 #include "flank/pipeline/folder/judge_job.h"
 #include "flank/pipeline/run_journal.h"
 #include "flank/results/view.h"
@@ -64,14 +65,18 @@ Result judged_path(const WheelWork& work, const std::vector<std::string>& faces,
 }
 
 Result judge_whole(const WheelWork& work) {
-  Path path = copied(work.finish, work.roles.axis, work.sector.pitch_rad, work.copies(), work.roles.whole);
+  Path path = copied(work.finish, work.roles.axis, work.sector.pitch_rad, work.copies());
   return judged_path(work, flow_faces(work), std::move(path), work.job.least_coverage, Care::kFull);
 }
 
 std::vector<RoleFigures> role_figures(const WheelRoles& roles, const VerifyReport& report) {
   std::vector<RoleFigures> out{{"side"}, {"edge"}, {"fillet"}, {"hub"}, {"other"}};
+  // A piece of a face has the role of the face, where that is named.
   const auto has = [](const std::vector<std::string>& faces, const std::string& face) {
-    return std::find(faces.begin(), faces.end(), face) != faces.end();
+    return std::any_of(faces.begin(), faces.end(), [&](const std::string& name) {
+      return name == face ||
+             (parse_face_name(name).piece.empty() && parse_face_name(name).number == parse_face_name(face).number);
+    });
   };
   const auto role_of = [&](const std::string& face) -> std::size_t {
     if (has(roles.hub, face)) return 3;
@@ -79,7 +84,7 @@ std::vector<RoleFigures> role_figures(const WheelRoles& roles, const VerifyRepor
       if (has(blade.sides(), face)) return 0;
       if (has(blade.edges, face)) return 1;
       for (const RootFillet& fillet : blade.fillets)
-        if (fillet.face == face) return 2;
+        if (has({fillet.face}, face)) return 2;
     }
     return 4;
   };

@@ -24,10 +24,11 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-constexpr double kFitSampleMm = 1.0;   ///< of the judge of one side: the whole is judged closely at the end
-constexpr double kTaperDeg = 12.0;     ///< of the tool that is made for a wheel
-constexpr double kCornerShare = 0.5;   ///< of what may be left, that the corners at the hub may take
-constexpr double kFilletShare = 0.97;  ///< of a root fillet's radius, that the tip has
+constexpr double kFitSampleMm = 1.0;    ///< of the judge of one side: the whole is judged closely at the end
+constexpr double kFitSamples = 1000.0;  ///< that a small side has all the same
+constexpr double kTaperDeg = 12.0;      ///< of the tool that is made for a wheel
+constexpr double kCornerShare = 0.5;    ///< of what may be left, that the corners at the hub may take
+constexpr double kFilletShare = 0.97;   ///< of a root fillet's radius, that the tip has
 
 PartRequest part_request(const WheelWork& work, const Names& faces) {
   PartRequest out;
@@ -54,7 +55,7 @@ double tip_radius(WheelWork& work) {
     height = std::min(height, blade.height_mm);
   }
   if (fillet < 1e300) return kFilletShare * fillet;
-  for (const Target* hub : work.targets.of(work.roles.hub)) area += hub->area() / work.copies_of_hub();
+  for (const Target* hub : work.targets.of(work.roles.hub)) area += hub->area() / work.sectors_of_hub();
   const double band = kCornerShare * (1.0 - work.job.least_coverage) * area / (2.0 * corners),
                root = std::sqrt(2.0 * work.job.tolerance_mm), q = 0.5 * (root + std::sqrt(root * root + 4.0 * band));
   return std::clamp(q * q, 4.0 * work.job.tolerance_mm, 0.2 * height);
@@ -65,7 +66,14 @@ std::string tool_spec(WheelWork& work) {
   return fmt::format("cone:radius={:.2f},angle={}", std::floor(tip_radius(work) * 20.0) / 20.0, kTaperDeg);
 }
 
-FitJob side_job(const WheelWork& work, const Names& side, const std::string& tool) {
+/// Of the judge of a fit. A side of which a few samples would tell is judged more closely.
+double fit_spacing(WheelWork& work, const Names& side) {
+  double spacing = std::max(kFitSampleMm, work.job.sample_mm.value_or(0.0));
+  for (const Target* face : work.targets.of(side)) spacing = std::min(spacing, std::sqrt(face->area() / kFitSamples));
+  return spacing;
+}
+
+FitJob side_job(WheelWork& work, const Names& side, const std::string& tool) {
   FitJob job;
   job.part = part_request(work, side);
   job.obstacles = obstacle_request(work);
@@ -73,7 +81,7 @@ FitJob side_job(const WheelWork& work, const Names& side, const std::string& too
   job.effort = work.job.effort;
   job.tool.spec = tool;
   job.judge.reach_radius_mm = kOpenBall * work.job.tolerance_mm;
-  job.judge.sample_mm = std::max(kFitSampleMm, work.job.sample_mm.value_or(0.0));
+  job.judge.sample_mm = fit_spacing(work, side);
   return job;
 }
 
@@ -84,7 +92,7 @@ struct SideFit {
 };
 
 /// A fit takes minutes: what it found lies in a folder of its own, and is taken from there where the same is asked again.
-SideFit side_fit(const WheelWork& work, const Names& side, const std::string& spec, const Progress& progress) {
+SideFit side_fit(WheelWork& work, const Names& side, const std::string& spec, const Progress& progress) {
   namespace fs = std::filesystem;
   const FitJob job = side_job(work, side, spec);
   const fs::path folder = in_folder(work, "fits/" + face_list(side));
@@ -104,24 +112,46 @@ SideFit side_fit(const WheelWork& work, const Names& side, const std::string& sp
   return {result.tool, result.path};
 }
 
+/// A side of the sector, and the equal one whose fit it takes, turned.
+struct SideToFit {
+  Names side, fitted;
+  double turn_rad = 0.0;
+};
+
+/// A piece of a wheel lacks what stands behind its first blade, so the fit would not see it: the next main blade has that side, too, with
+/// the whole channel before it.
+std::vector<SideToFit> sides_to_fit(const WheelWork& work) {
+  std::vector<SideToFit> out;
+  for (const WheelBlade& blade : work.sector.blades) {
+    out.push_back({blade.ahead, blade.ahead});
+    out.push_back({blade.behind, blade.behind});
+  }
+  const SectorChannel& last = work.sector.channels.back();
+  if (!work.roles.whole) out[1] = {last.second_path, last.second, -work.sector.pitch_rad};
+  return out;
+}
+
 /// Each side of the sector by a fit of its own; all with the tool of the first one.
 Path fitted_sides(WheelWork& work, const std::string& spec, const Progress& progress) {
   Path path;
-  std::vector<Names> sides;
-  for (const WheelBlade& blade : work.sector.blades) sides.push_back(blade.ahead), sides.push_back(blade.behind);
+  const std::vector<SideToFit> sides = sides_to_fit(work);
   const double count = static_cast<double>(sides.size());
   for (std::size_t k = 0; k < sides.size(); ++k) {
-    const SideFit fit = side_fit(work, sides[k], work.tool ? tool_file(work) : spec,
-                                 progress.part(static_cast<double>(k) / count, (static_cast<double>(k) + 1.0) / count));
+    SideFit fit = side_fit(work, sides[k].fitted, work.tool ? tool_file(work) : spec,
+                           progress.part(static_cast<double>(k) / count, (static_cast<double>(k) + 1.0) / count));
     if (fit.path.strips.empty()) {
-      work.notes.push_back(face_list(sides[k]) + ": no pass was found");
+      work.notes.push_back(face_list(sides[k].side) + ": no pass was found");
       continue;
     }
     if (!work.tool) {
       work.tool = fit.tool;
       write_tool(*work.tool, tool_file(work));
     }
-    path.strips.insert(path.strips.end(), fit.path.strips.begin(), fit.path.strips.end());
+    for (Strip& strip : fit.path.strips) {
+      strip.face = face_list(sides[k].side);
+      strip.poses = turned(strip.poses, work.roles.axis, sides[k].turn_rad);
+      path.strips.push_back(std::move(strip));
+    }
   }
   return path;
 }

@@ -1,16 +1,33 @@
 #include "flank/wheel/perform.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <filesystem>
+#include <optional>
 
 #include "flank/base/sha256.h"
 #include "flank/error.h"
 #include "flank/path_file.h"
+#include "flank/results/acceptance.h"
 #include "flank/version.h"
 
 namespace flank::internal {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// The first reason against a draft that is not the lack of a proof: the proof is the whole wheel's.
+std::optional<Shortfall> found_by_samples(const Acceptance& acceptance) {
+  for (const Shortfall& reason : acceptance.reasons)
+    if (reason.figure != figure_name(Figure::kOvercutBound) && reason.figure != figure_name(Figure::kGougeBound) &&
+        reason.figure != figure_name(Figure::kCoverageBound))
+      return reason;
+  return {};
+}
+
+}  // namespace
 
 std::string in_folder(const WheelWork& work, const std::string& name) {
   return (fs::path(work.job.folder) / name).string();
@@ -23,7 +40,7 @@ std::string tool_file(const WheelWork& work, const std::string& tool) {
 WheelOperation perform(const WheelWork& work, WheelOperation operation, const std::string& decides,
                        const std::function<Result()>& make) {
   operation.folder = "ops/" + operation.id + "-" + operation.kind;
-  operation.key = sha256(work.part.sha256 + kVersion + decides);
+  operation.key = sha256(work.part.sha256 + kVersion + decides + fmt::format(" {}", work.job.most_tilt_deg));
   const auto known = work.finished.find(operation.id);
   if (known != work.finished.end() && known->second.done && known->second.key == operation.key &&
       fs::exists(in_folder(work, operation.folder + "/path.json"))) {
@@ -36,13 +53,13 @@ WheelOperation perform(const WheelWork& work, WheelOperation operation, const st
     const Result result = make();
     if (result.path.pose_count() == 0) throw InputError("no pass was found");
     write_result(result, in_folder(work, operation.folder));
-    const Acceptance acceptance = result.acceptance();
+    const std::optional<Shortfall> shortfall = found_by_samples(result.acceptance());
     operation.done = result.complete;
-    operation.pass = acceptance.pass();
+    operation.pass = result.complete && !shortfall;
     if (!result.complete)
       operation.problem = "stopped, or its limit of processor time was reached";
-    else if (!acceptance.pass())
-      operation.problem = acceptance.reasons.front().text;
+    else if (shortfall)
+      operation.problem = shortfall->text;
   } catch (const Error& error) {
     operation.problem = error.what();
   }

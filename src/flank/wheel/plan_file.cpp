@@ -67,6 +67,22 @@ nlohmann::ordered_json rest_json(const std::vector<RestPlace>& rest) {
   return list;
 }
 
+nlohmann::ordered_json roughing_json(const JudgedRoughing& roughing) {
+  const StockReport& stock = roughing.stock;
+  nlohmann::ordered_json json{{"deepest_cut_mm", roughing.cuts.gouge_mm},
+                              {"cut_bound_mm", roughing.cuts.gouge_bound_mm}};
+  for (const StockKind& kind : stock.kinds)
+    json.update({{"engagement_deg", kind.engagement_deg},
+                 {"resolution_deg", stock.resolution_deg},
+                 {"strip", kind.strip + 1},
+                 {"pose", kind.pose},
+                 {"way_mm", kind.way_mm},
+                 {"removed_mm3", kind.volume_mm3},
+                 {"blank_mm3", stock.before_mm3},
+                 {"strip_engagement_deg", stock.strip_deg}});
+  return json;
+}
+
 std::string rest_text(const std::vector<RestPlace>& rest) {
   constexpr std::size_t kShown = 12;
   std::string text;
@@ -119,8 +135,13 @@ std::string plan_json(const WheelResult& result) {
   nlohmann::ordered_json json;
   json["schema"] = kSchema;
   json["axis"] = {{"point_mm", list_of(result.roles.axis.point)}, {"direction", list_of(result.roles.axis.direction)}};
+  json["up"] = list_of(result.up);
   json["copies"] = result.copies;
+  json["sectors"] = std::max(1, result.roles.count);
+  json["whole"] = result.roles.whole;
   if (result.roles.count > 0) json["pitch_deg"] = 360.0 / result.roles.count;
+  json["most_engagement_deg"] = result.most_engagement_deg;
+  if (!result.blank.empty()) json["blank"] = {{"file", "blank.stl"}, {"from", result.blank}};
   json["tools"] = tools_json(result);
   json["operations"] = nlohmann::ordered_json::array();
   for (const WheelOperation& operation : result.operations)
@@ -130,6 +151,7 @@ std::string plan_json(const WheelResult& result) {
     json["pass"] = acceptance.pass();
     json["reasons"] = reasons_json(acceptance);
     json["surface"] = figures_json(result.figures);
+    if (result.roughing) json["roughing"] = roughing_json(*result.roughing);
     json["rest"] = rest_json(result.rest);
   }
   return dumped(json, 2) + "\n";
@@ -152,6 +174,7 @@ std::string wheel_text(const WheelResult& result) {
                       "{:.4f} mm, excess material {:.3f} mm\n",
                       f.role, 100.0 * f.within_mm2 / f.open_mm2, f.open_mm2, f.area_mm2, f.cut_mm, f.left_mm)
                 : fmt::format("  {:<7} not machined; deepest gouge {:.4f} mm\n", f.role, f.cut_mm);
+  if (result.roughing) text += "  " + roughing_text(*result.roughing) + "\n";
   text += rest_text(result.rest);
   const Acceptance acceptance = result.acceptance();
   text += fmt::format("  verdict {}\n", acceptance.pass() ? "meets the request" : "does NOT meet the request");

@@ -27,7 +27,19 @@ struct Around {
   FloorChannel channel;
   const Tool* tool;
   double tolerance = 0.0;
+  std::vector<const Target*> sides;  ///< of the sector's blades
+  double pitch = 0.0;
+  int copies = 1;
 
+  /// The hub of a piece of a wheel goes on below blades that the piece lacks.
+  [[nodiscard]] bool below_a_blade(const Vec3& x, const Vec3& normal) const {
+    for (int k = 0; k < copies; ++k) {
+      const Vec3 p = channel.axis.turn(k * pitch) * Vec3(x + tolerance * normal);
+      const Footpoint foot = nearest_foot(sides, p, 1e300);
+      if (foot.patch >= 0 && foot.location == Location::kInside && foot.distance < 0.0) return true;
+    }
+    return false;
+  }
   [[nodiscard]] bool lets_in(const Vec3& x, const Vec3& normal, double radius) const {
     return nearest_foot(others, x + radius * normal, kTouching * radius).patch < 0;
   }
@@ -39,6 +51,7 @@ struct Around {
   }
   [[nodiscard]] std::string reason(const Vec3& x, const Vec3& normal) const {
     const double tip = tool->radial.at(0.0).r;
+    if (below_a_blade(x, normal)) return "a blade of the wheel stands there";
     if (!lets_in(x, normal, tip)) return fmt::format("a corner that a tip of radius {:.2f} mm does not fit into", tip);
     PointOptions options;
     options.tolerance_mm = tolerance;
@@ -68,9 +81,14 @@ Around around(WheelWork& work, const std::string& face) {
     if (counts) names.push_back(one.id);
   }
   out.channel.axis = work.roles.axis;
+  out.pitch = work.sector.pitch_rad, out.copies = work.sector.copies;
+  if (holds(work.roles.hub, face)) out.sides = work.targets.of(work.sector.sides());
+  const std::vector<const Target*> missing = work.missing();
   out.channel.walls = work.targets.of(names);
+  out.channel.walls.insert(out.channel.walls.end(), missing.begin(), missing.end());
   names.erase(std::remove(names.begin(), names.end(), face), names.end());
   out.others = work.targets.of(names);
+  out.others.insert(out.others.end(), missing.begin(), missing.end());
   return out;
 }
 

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <utility>
 
+#include "flank/base/sha256.h"
 #include "flank/error.h"
+#include "flank/io/text/json_input.h"
 #include "flank/path_file.h"
 #include "flank/tool_file.h"
 #include "flank/wheel/floor_operation.h"
@@ -94,26 +96,31 @@ std::string choose_tool(WheelWork& work) {
   return "T2";
 }
 
+/// Where material begins: a turned blank is hardly more than the tips' outline.
+const std::vector<Vec2>& top_of(const WheelWork& work) {
+  return work.job.blank ? work.blank.outline : work.roles.outline;
+}
+
 Path rough_path(WheelWork& work, const RadialFunction& radial) {
   const double tip = radial.at(0.0).r, keep = kAllowanceMm + (work.equal() ? 0.0 : work.difference_mm);
   Path out;
   for (const SectorChannel& one : work.sector.channels) {
     const FloorChannel channel = floor_channel(work, one);
-    const Section section(channel, work.roles.outline);
-    PointOptions options;
-    options.tolerance_mm = work.job.tolerance_mm;
-    options.turn_window_mm = work.turn_window();
+    const Section section(channel, top_of(work));
+    PointOptions options = work.point_options();
     options.enter_share = -keep / work.job.tolerance_mm;
     options.apart_mm = kApartShare * tip;
     options.is_air = [&section, tip](const Vec3& center) { return section.is_air(center, tip); };
     const int layers = 1 + static_cast<int>(std::ceil(section.height() / (kLayerShare * tip)));
-    for (int layer = 1; layer <= layers; ++layer) {
-      options.height_mm = keep + (layers - layer) * kLayerShare * tip;
-      for (Strip& strip : layer_passes(channel, radial, options, face_list(work.roles.hub))) {
+    std::vector<double> heights;
+    for (int layer = 0; layer < layers; ++layer) heights.push_back(keep + layer * kLayerShare * tip);
+    std::vector<std::vector<Strip>> found = layer_passes(channel, radial, options, heights, face_list(work.roles.hub));
+    // The highest is machined first.
+    for (int layer = 1; layer <= layers; ++layer)
+      for (Strip& strip : found[static_cast<std::size_t>(layers - layer)]) {
         strip.layer = layer;
         out.strips.push_back(std::move(strip));
       }
-    }
   }
   return guarded(work, out, radial, -0.5 * kAllowanceMm - (work.equal() ? 0.0 : work.difference_mm));
 }
@@ -130,12 +137,16 @@ WheelOperation rough_operation(WheelWork& work) {
   operation.tool = choose_tool(work);
   operation.copies = work.sector.copies;
   const Tool tool = operation.tool == "T2" ? *work.rough_tool : *work.tool;
-  const std::string decides = tool_to_json(tool) + fmt::format("{} {}", work.job.tolerance_mm, work.difference_mm);
-  return perform(work, operation, decides, [&] {
+  std::string decides = tool_to_json(tool) + fmt::format("{} {}", work.job.tolerance_mm, work.difference_mm);
+  if (work.job.blank) decides += sha256(read_file(*work.job.blank));
+  operation = perform(work, operation, decides, [&] {
     Path path = rough_path(work, tool.radial);
     if (path.strips.empty()) throw InputError("no layer has room between the blades");
-    return judged_path(work, work.roles.hub, std::move(path), 0.0, Care::kDraft, operation.tool);
+    return judged_path(work, work.roles.hub, std::move(path), work.job.least_coverage, Care::kDraft, operation.tool);
   });
+  // Roughing finishes nothing. Its verdict is that of its simulation in the whole blank (judge_roughing).
+  if (operation.done) operation.pass = true, operation.problem.clear();
+  return operation;
 }
 
 }  // namespace flank::internal

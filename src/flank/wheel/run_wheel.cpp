@@ -1,15 +1,23 @@
 #include "flank/wheel/run_wheel.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <utility>
+#include <variant>
 
 #include "flank/base/atomic_file.h"
 #include "flank/error.h"
 #include "flank/feature/recognise_wheel.h"
 #include "flank/feature/wheel_table.h"
 #include "flank/io/mesh/write_mesh.h"
+#include "flank/job/input_files.h"
+#include "flank/pipeline/folder/judge_roughing.h"
+#include "flank/results/write_result.h"
+#include "flank/setup/read_setup.h"
+#include "flank/wheel/blank.h"
 #include "flank/wheel/face_operations.h"
 #include "flank/wheel/floor_operation.h"
 #include "flank/wheel/judge_whole.h"
@@ -29,6 +37,12 @@ void check(const WheelJob& job) {
     throw UsageError("least_coverage", "expected a share above 0 and at most 1");
   if (job.effort != "quick" && job.effort != "normal" && job.effort != "thorough")
     throw UsageError("effort", job.effort, "must be quick, normal or thorough");
+  if (!(job.allowance_mm > 0.0)) throw UsageError("allowance_mm", "expected a length > 0 mm");
+  if (!(job.most_engagement_deg > 0.0 && job.most_engagement_deg <= 180.0))
+    throw UsageError("most_engagement_deg", "expected an angle above 0 and at most 180 degrees");
+  if (!(job.most_tilt_deg > 0.0 && job.most_tilt_deg <= 180.0))
+    throw UsageError("most_tilt_deg", "expected an angle above 0 and at most 180 degrees");
+  if (job.blank && !job.rough) throw UsageError("blank", "is for roughing, which is left out");
 }
 
 void make_folder(const std::string& folder) {
@@ -38,6 +52,22 @@ void make_folder(const std::string& folder) {
   if (!fs::is_directory(fs::path(folder) / "ops")) throw InputError(folder + ": is not a folder and cannot be created");
 }
 
+/// The part as the whole was judged on it.
+Setup setup_of(const Result& whole) {
+  std::vector<std::string> told;
+  return std::visit([&](const auto& job) { return read_setup(machined(job), job.obstacles, job.tolerance_mm, told); },
+                    whole.job);
+}
+
+/// The files of the result of all sectors, with the verdict on all operations in them.
+void write_whole(const WheelResult& result, const std::string& folder) {
+  const ReadFiles inputs = read_files(result.whole->job);
+  const Unwritten unwritten(inputs);
+  ResultFolder held(folder, ResultFolder::Use::kWrite);
+  held.require_not_inputs(inputs);
+  held.replace(result_files(*result.whole, result.acceptance()), result_manifest(*result.whole, held));
+}
+
 /// The whole of what finishes something, its figures and what it leaves, into the wheel's folder.
 void judge(WheelWork& work, WheelResult& result) {
   // The judge needs memory of its own, and nothing of this.
@@ -45,10 +75,26 @@ void judge(WheelWork& work, WheelResult& result) {
   if (work.finish.strips.empty()) return;
   result.whole = judge_whole(work);
   result.figures = role_figures(result.roles, result.whole->verify);
-  write_result(*result.whole, work.job.folder);
+  result.roughing = judge_roughing(*read_wheel_plan(work.job.folder), setup_of(*result.whole));
+  write_whole(result, work.job.folder);
   WheelRest rest = rest_of(work, *result.whole);
   result.rest = std::move(rest.places);
   if (!rest.mesh.triangles.empty()) write_mesh((fs::path(work.job.folder) / "rest.stl").string(), rest.mesh);
+}
+
+/// blank.stl in the folder; none where nothing is roughed.
+WheelBlank make_blank(const WheelJob& job, const Part& part, WheelResult& result) {
+  if (!job.rough) return {};
+  WheelBlank blank = job.blank ? read_blank(*job.blank, job.unit, result.roles.axis)
+                               : turned_blank(part, result.roles, job.allowance_mm);
+  ReadFiles inputs;
+  inputs.add(job.part, "as `part`");
+  if (job.blank) inputs.add(*job.blank, "as `blank`");
+  const Unwritten unwritten(inputs);
+  write_mesh((fs::path(job.folder) / "blank.stl").string(), blank.body);
+  result.blank = job.blank.value_or("turned");
+  result.most_engagement_deg = job.most_engagement_deg;
+  return blank;
 }
 
 }  // namespace
@@ -58,21 +104,28 @@ WheelResult run_wheel(const WheelJob& job, const Progress& progress) {
   progress.step("read", 0.0);
   const Part part = read_part(job.part, job.unit);
   WheelResult result;
-  result.roles = recognise_wheel(part, job.choice);
+  const WheelRoles found = recognise_wheel(part, job.choice);
+  std::vector<WheelFace> faces = wheel_faces(part);
+  result.roles = as_planned(found, !job.choice.count && sectors_of_hub(found, faces) >= found.count);
   const WheelSector sector = make_sector(result.roles);
   result.copies = sector.copies;
   make_folder(job.folder);
   const std::string plan = (fs::path(job.folder) / "plan.json").string();
-  WheelWork work{job, result.roles, sector, part, FaceTargets(part), wheel_faces(part), finished_operations(plan)};
+  const WheelBlank blank = make_blank(job, part, result);
+  WheelWork work{job,   result.roles,      sector,           part,
+                 blank, FaceTargets(part), std::move(faces), finished_operations(plan)};
+  if (result.roles.count != found.count)
+    work.notes.push_back(fmt::format("the hub goes all round, with {} of {} main blades: the part is planned as it is",
+                                     found.mains(), found.count));
   const auto run = [&](WheelOperation operation) {
     result.operations.push_back(std::move(operation));
     std::stable_sort(result.operations.begin(), result.operations.end(),
                      [](const auto& a, const auto& b) { return a.id < b.id; });
     write_file(plan, plan_json(result));
   };
-  write_file((fs::path(job.folder) / "wheel.json").string(), wheel_json(result.roles));
+  write_file((fs::path(job.folder) / "wheel.json").string(), wheel_json(found));
   run(side_operation(work, progress.part(0.0, 0.4)));
-  result.copies = work.copies(), result.notes = work.notes;
+  result.copies = work.copies(), result.up = work.up(), result.notes = work.notes;
   run(floor_operation(work, progress.part(0.4, 0.5)));
   progress.step("edges", 0.5);
   const bool fillets = std::any_of(sector.blades.begin(), sector.blades.end(),

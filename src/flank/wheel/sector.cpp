@@ -19,16 +19,30 @@ double ahead_of(double from, double to) {
   return d;
 }
 
-/// The blade that follows, main or not, within a pitch and a little more; none at the end of a part that is a sector.
-const WheelBlade* next_of(const WheelRoles& roles, const WheelBlade& blade, bool main_only) {
+constexpr double kSamePlaceDeg = 1.0;  ///< a blade so near to where a copy would stand is that copy
+
+/// From a blade to another one, or all round to itself.
+double way_to(const WheelBlade& from, const WheelBlade& to) {
+  return &from == &to ? 360.0 : ahead_of(from.angle_deg, to.angle_deg);
+}
+
+/// The blade that follows within a pitch and a little more, the main blade a pitch on at last; none at the end of a part that is a piece.
+const WheelBlade* next_of(const WheelRoles& roles, const WheelBlade& blade) {
   const WheelBlade* best = nullptr;
-  double least = 360.0 / roles.count + 1.0;
+  double least = 360.0 / roles.count + kSamePlaceDeg;
   for (const WheelBlade& other : roles.blades) {
-    const double d = ahead_of(blade.angle_deg, other.angle_deg);
-    if (&other == &blade || (main_only && other.splitter) || d <= 1e-6 || d > least) continue;
+    const double d = way_to(blade, other);
+    if (d <= 1e-6 || d > least) continue;
     best = &other, least = d;
   }
   return best;
+}
+
+/// The main blade that stands a pitch on; null: the part has none.
+const WheelBlade* pitch_on(const WheelRoles& roles, const WheelBlade& blade) {
+  for (const WheelBlade& other : roles.blades)
+    if (!other.splitter && std::abs(way_to(blade, other) - 360.0 / roles.count) < kSamePlaceDeg) return &other;
+  return nullptr;
 }
 
 }  // namespace
@@ -45,15 +59,18 @@ std::vector<std::string> WheelSector::sides() const {
 std::vector<WheelSector> all_sectors(const WheelRoles& roles) {
   std::vector<WheelSector> all;
   for (const WheelBlade& blade : roles.blades) {
-    if (blade.splitter) continue;
-    const WheelBlade* last = next_of(roles, blade, true);
-    if (last == nullptr) continue;
+    const WheelBlade* last = blade.splitter ? nullptr : pitch_on(roles, blade);
+    const auto holds = [&](const WheelSector& sector) {
+      return std::any_of(sector.blades.begin(), sector.blades.end(),
+                         [&](const WheelBlade& other) { return other.angle_deg == blade.angle_deg; });
+    };
+    if (last == nullptr || std::any_of(all.begin(), all.end(), holds)) continue;
     WheelSector out;
     out.pitch_rad = 2.0 * std::numbers::pi / roles.count;
-    out.copies = roles.whole ? roles.count : roles.mains();
+    out.copies = roles.count;
     out.blades = {blade};
     const WheelBlade* at = &blade;
-    while (const WheelBlade* next = next_of(roles, *at, false)) {
+    while (const WheelBlade* next = next_of(roles, *at)) {
       const bool end = next == last;
       out.channels.push_back({at->ahead, next->behind, end ? blade.behind : next->behind, end});
       if (end) break;
@@ -96,11 +113,45 @@ std::vector<Pose> turned(const std::vector<Pose>& poses, const WheelAxis& axis, 
   return out;
 }
 
-Path copied(const Path& sector, const WheelAxis& axis, double pitch_rad, int copies, bool whole) {
+double sectors_of_hub(const WheelRoles& roles, const std::vector<WheelFace>& faces) {
+  std::vector<double> angles;
+  for (const WheelFace& face : faces) {
+    if (std::find(roles.hub.begin(), roles.hub.end(), face.id) == roles.hub.end()) continue;
+    for (const FaceSample& s : face.samples) angles.push_back(roles.axis.angle(s.point));
+    for (const Vec3& p : face.border) angles.push_back(roles.axis.angle(p));
+  }
+  if (angles.size() < 2) return 1.0;
+  std::sort(angles.begin(), angles.end());
+  double gap = angles.front() + 2.0 * std::numbers::pi - angles.back();
+  for (std::size_t k = 1; k < angles.size(); ++k) gap = std::max(gap, angles[k] - angles[k - 1]);
+  // Samples have gaps, too; where a piece ends, a sector is missing at least.
+  const double pitch = 2.0 * std::numbers::pi / roles.count;
+  if (gap < 0.5 * pitch) return roles.count;
+  return std::max(1.0, (2.0 * std::numbers::pi - gap) / pitch);
+}
+
+WheelRoles as_planned(WheelRoles roles, bool hub_closes) {
+  if (!roles.whole && hub_closes) roles.count = 1, roles.whole = true;
+  return roles;
+}
+
+std::vector<MissingBlade> missing_beside(const WheelRoles& roles, const WheelSector& sector) {
+  std::vector<MissingBlade> out;
+  for (const WheelBlade& blade : sector.blades)
+    for (const int turns : {-1, 1}) {
+      const double there = blade.angle_deg + turns * 360.0 / roles.count;
+      const auto stands = [&](const WheelBlade& other) {
+        const double off = ahead_of(there, other.angle_deg);
+        return other.splitter == blade.splitter && std::min(off, 360.0 - off) < kSamePlaceDeg;
+      };
+      if (std::none_of(roles.blades.begin(), roles.blades.end(), stands)) out.push_back({blade, turns});
+    }
+  return out;
+}
+
+Path copied(const Path& sector, const WheelAxis& axis, double pitch_rad, int copies) {
   Path out;
-  // A part that is a sector may have its blades on either side of the one that was computed.
-  const int first = whole ? 0 : 1 - copies, last = copies - 1;
-  for (int k = first; k <= last; ++k)
+  for (int k = 0; k < copies; ++k)
     for (const Strip& strip : sector.strips) {
       out.strips.push_back(strip);
       if (k != 0) out.strips.back().poses = turned(strip.poses, axis, k * pitch_rad);

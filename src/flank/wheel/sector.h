@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "flank/feature/wheel_face.h"
 #include "flank/feature/wheel_roles.h"
 #include "flank/path.h"
 
@@ -18,17 +19,24 @@ struct SectorChannel {
 };
 
 struct WheelSector {
-  std::vector<WheelBlade> blades;  ///< a main blade, and the splitters up to the next one
+  std::vector<WheelBlade> blades;  ///< a main blade, and what stands up to the place a pitch on
   std::vector<SectorChannel> channels;
   double pitch_rad = 0.0;
-  int copies = 1;  ///< that the part has
+  int copies = 1;  ///< in a whole turn, whether the part has them or not
   [[nodiscard]] std::vector<std::string> sides() const;
 };
 
-/// The first main blade with another one behind it, and what stands between them. Throws InputError where no two main blades
+/// The sectors that the hub goes round, its rim counted; `roles.count` where it closes.
+[[nodiscard]] double sectors_of_hub(const WheelRoles& roles, const std::vector<WheelFace>& faces);
+
+/// The same roles, of a wheel that is planned as it is. A piece of a wheel stands for all of it; but where the hub goes all round, the part
+/// itself is to be made, with the blades that it has: it is one sector.
+[[nodiscard]] WheelRoles as_planned(WheelRoles roles, bool hub_closes);
+
+/// The first main blade with another one a pitch on, or itself where the wheel is one sector, and what stands between them. Throws InputError where no two main blades
 /// are there.
 [[nodiscard]] WheelSector make_sector(const WheelRoles& roles);
-/// The sectors of all main blades that have another one behind them, the one of make_sector() first.
+/// The sectors of all main blades that have another one a pitch on and are in no sector before, the one of make_sector() first.
 [[nodiscard]] std::vector<WheelSector> all_sectors(const WheelRoles& roles);
 
 /// "F1,F2".
@@ -37,7 +45,15 @@ struct WheelSector {
 [[nodiscard]] std::vector<Strip> strips_of(const Path& path, const std::vector<std::string>& faces);
 /// Poses turned about the wheel's axis.
 [[nodiscard]] std::vector<Pose> turned(const std::vector<Pose>& poses, const WheelAxis& axis, double radians);
-/// Every strip as often as there are sectors in the part, a sector after the other, numbered anew.
-[[nodiscard]] Path copied(const Path& sector, const WheelAxis& axis, double pitch_rad, int copies, bool whole);
+/// A blade that the wheel has and the part has not: a blade of the sector, turned by some pitches.
+struct MissingBlade {
+  WheelBlade blade;
+  int turns = 0;
+};
+/// Those beside a sector, a pitch before and behind: the blades of a part that is a piece of the wheel have neighbours, too.
+[[nodiscard]] std::vector<MissingBlade> missing_beside(const WheelRoles& roles, const WheelSector& sector);
+
+/// Every strip as often as there are sectors, one after the other, numbered anew.
+[[nodiscard]] Path copied(const Path& sector, const WheelAxis& axis, double pitch_rad, int copies);
 
 }  // namespace flank::internal

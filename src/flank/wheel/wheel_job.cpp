@@ -5,10 +5,10 @@ namespace flank::internal {
 Acceptance WheelResult::acceptance() const {
   Acceptance out;
   if (whole) out = whole->acceptance();
-  for (const WheelOperation& operation : operations)
-    if (!operation.done)
-      out.reasons.push_back(
-          {"complete", "operation " + operation.id + " (" + operation.kind + ") has no result: " + operation.problem});
+  WheelPlan plan;
+  for (const WheelOperation& o : operations)
+    plan.steps.push_back({.id = o.id, .kind = o.kind, .folder = o.folder, .done = o.done, .problem = o.problem});
+  accept_steps(plan, roughing, out);
   if (!whole) out.reasons.push_back({"complete", "no operation has a result"});
   return out;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "flank/feature/wheel_roles.h"
+#include "flank/pipeline/folder/judge_roughing.h"
 #include "flank/run.h"
 
 namespace flank::internal {
@@ -17,12 +18,16 @@ struct WheelJob {
   std::string folder;
   WheelChoice choice;
   double tolerance_mm = 0.05;
-  bool rough = true;                ///< channels are roughed, layer by layer
-  bool edges = true;                ///< leading and trailing edges are milled
-  std::string effort = "quick";     ///< of the fits
-  double least_coverage = 0.97;     ///< share of what is open of the flow surface, within tolerance
-  std::optional<double> sample_mm;  ///< judge by samples alone, at this spacing
-  std::optional<std::string> tool;  ///< a tool.json; none: found with the sides
+  bool rough = true;                   ///< channels are roughed, layer by layer
+  std::optional<std::string> blank;    ///< a closed body; none: turned
+  double allowance_mm = 0.5;           ///< of a turned blank over the part, > 0
+  double most_engagement_deg = 180.0;  ///< while roughing; 180: slots are allowed
+  double most_tilt_deg = 100.0;        ///< between the tool and the wheel's axis, on passes of the tip, in (0, 180]
+  bool edges = true;                   ///< leading and trailing edges are milled
+  std::string effort = "quick";        ///< of the fits
+  double least_coverage = 0.97;        ///< share of what is open of the flow surface, within tolerance
+  std::optional<double> sample_mm;     ///< judge by samples alone, at this spacing
+  std::optional<std::string> tool;     ///< a tool.json; none: found with the sides
 };
 
 /// One operation: a result folder of one sector, or what stopped it.
@@ -59,10 +64,14 @@ struct RestPlace {
 struct WheelResult {
   WheelRoles roles;
   int copies = 0;
+  Vec3 up = Vec3::UnitZ();  ///< along the axis: to the spindle where the wheel is clamped
   std::vector<WheelOperation> operations;
   std::vector<RoleFigures> figures;
   std::vector<std::string> notes;
   std::vector<RestPlace> rest;  ///< largest first
+  std::string blank;            ///< "turned", or the file that it is from; empty: nothing is roughed
+  double most_engagement_deg = 180.0;
+  std::optional<JudgedRoughing> roughing;
   std::optional<Result> whole;  ///< all copies of all finishing operations, judged on all flow faces
   [[nodiscard]] Acceptance acceptance() const;
 };

@@ -1,9 +1,13 @@
 #include "flank/wheel/wheel_work.h"
 
 #include <algorithm>
+#include <numbers>
+#include <string>
+#include <utility>
 
 #include "flank/base/parallel.h"
 #include "flank/geom/tessellate.h"
+#include "flank/io/face_names.h"
 #include "flank/path/turning.h"
 
 namespace flank::internal {
@@ -15,11 +19,74 @@ constexpr int kMostSteps = 2000;  ///< of a face, in either direction
 
 void append(Names& to, const Names& more) { to.insert(to.end(), more.begin(), more.end()); }
 
+/// A face, or a piece of it.
+bool names_face(const Names& faces, const std::string& face) {
+  return std::any_of(faces.begin(), faces.end(), [&](const std::string& name) {
+    return "F" + std::to_string(parse_face_name(name).number) == face;
+  });
+}
+
 bool holds(const Names& faces, const std::string& face) {
   return std::find(faces.begin(), faces.end(), face) != faces.end();
 }
 
+/// What stands beside the sector in the wheel and not in the part: faces, and the pitches that they are turned by.
+struct TurnedFaces {
+  Names faces;
+  int turns = 0;
+};
+
+std::vector<TurnedFaces> missing_walls(const WheelWork& work) {
+  std::vector<TurnedFaces> out;
+  for (const MissingBlade& one : missing_beside(work.roles, work.sector)) {
+    out.push_back({one.blade.flow(), one.turns});
+    append(out.back().faces, one.blade.tips);
+  }
+  return out;
+}
+
+std::vector<TurnedFaces> missing_floor(const WheelWork& work) {
+  if (work.sectors_of_hub() >= work.roles.count) return {};
+  return {{work.roles.hub, -1}, {work.roles.hub, 1}};
+}
+
+std::vector<TurnedFaces> missing_faces(const WheelWork& work) {
+  std::vector<TurnedFaces> out = missing_walls(work);
+  for (TurnedFaces& more : missing_floor(work)) out.push_back(std::move(more));
+  return out;
+}
+
+void add_targets(WheelWork& work, const std::vector<TurnedFaces>& missing, std::vector<const Target*>& out) {
+  for (const TurnedFaces& more : missing)
+    for (const Target* target : work.targets.turned(more.faces, work.roles.axis, work.sector.pitch_rad, more.turns))
+      out.push_back(target);
+}
+
+void append_turned(TriangleMesh mesh, const WheelWork& work, int turns, TriangleMesh& all) {
+  const Eigen::Isometry3d turn = work.roles.axis.turn(turns * work.sector.pitch_rad);
+  for (Vec3& vertex : mesh.vertices) vertex = turn * vertex;
+  flank::internal::append(all, mesh);
+}
+
 }  // namespace
+
+std::vector<const Target*> WheelWork::floor() {
+  std::vector<const Target*> out = targets.of(roles.hub);
+  add_targets(*this, missing_floor(*this), out);
+  return out;
+}
+
+std::vector<const Target*> WheelWork::walls() {
+  std::vector<const Target*> out = targets.of(wall_faces(roles));
+  add_targets(*this, missing_walls(*this), out);
+  return out;
+}
+
+std::vector<const Target*> WheelWork::missing() {
+  std::vector<const Target*> out;
+  add_targets(*this, missing_faces(*this), out);
+  return out;
+}
 
 Names wall_faces(const WheelRoles& roles) {
   Names out = roles.shroud;
@@ -32,12 +99,26 @@ Names wall_faces(const WheelRoles& roles) {
   return out;
 }
 
-double WheelWork::turn_window() {
+Vec3 WheelWork::up() const {
+  double along = 0.0;
+  for (const Strip& strip : finish.strips) {
+    if (strip.kind != "flank") continue;
+    for (const Pose& pose : strip.poses) along += pose.axis.dot(roles.axis.direction);
+  }
+  return along < 0.0 ? Vec3(-roles.axis.direction) : roles.axis.direction;
+}
+
+PointOptions WheelWork::point_options() {
+  constexpr double kWindowShare = 1.1;
   Names flow = roles.hub;
   for (const WheelBlade& blade : sector.blades) append(flow, blade.flow());
   double size = 0.0;
   for (const Target* target : targets.of(flow)) size = std::max(size, target->diagonal());
-  return 1.1 * flank::internal::turn_window(size);
+  PointOptions options;
+  options.tolerance_mm = job.tolerance_mm;
+  options.turn_window_mm = kWindowShare * turn_window(size);
+  options.held = {up(), job.most_tilt_deg * std::numbers::pi / 180.0};
+  return options;
 }
 
 const TriangleBvh& WheelWork::coarse_triangles() {
@@ -47,6 +128,9 @@ const TriangleBvh& WheelWork::coarse_triangles() {
   TriangleMesh all;
   for (const WheelFace& face : faces)
     if (holds(names, face.id)) flank::internal::append(all, face.mesh);
+  for (const TurnedFaces& more : missing_faces(*this))
+    for (const WheelFace& face : faces)
+      if (holds(more.faces, face.id)) append_turned(face.mesh, *this, more.turns, all);
   return coarse.emplace(all);
 }
 
@@ -63,6 +147,9 @@ const TriangleBvh& WheelWork::guard_triangles() {
   });
   TriangleMesh all;
   for (const TriangleMesh& mesh : meshes) flank::internal::append(all, mesh);
+  for (const TurnedFaces& more : missing_faces(*this))
+    for (std::size_t k = 0; k < counted.size(); ++k)
+      if (names_face(more.faces, part.face_id(counted[k]))) append_turned(meshes[k], *this, more.turns, all);
   return fine.emplace(all);
 }
 

@@ -8,7 +8,9 @@
 
 #include "flank/feature/wheel_face.h"
 #include "flank/tool.h"
+#include "flank/wheel/blank.h"
 #include "flank/wheel/face_targets.h"
+#include "flank/wheel/point/channel.h"
 #include "flank/wheel/sector.h"
 #include "flank/wheel/wheel_job.h"
 
@@ -19,6 +21,7 @@ struct WheelWork {
   const WheelRoles& roles;
   const WheelSector& sector;
   const Part& part;
+  const WheelBlank& blank;
   FaceTargets targets;
   std::vector<WheelFace> faces;                         ///< as triangles: what directions are chosen by
   std::map<std::string, WheelOperation> finished = {};  ///< of an earlier run, by id
@@ -38,10 +41,18 @@ struct WheelWork {
   static constexpr double kGuardShare = 0.02;
   static constexpr double kEqualShare = 0.1;
   [[nodiscard]] bool equal() const { return difference_mm <= kEqualShare * job.tolerance_mm; }
-  /// The sectors that the hub of the part goes round.
-  [[nodiscard]] int copies_of_hub() const { return roles.whole ? roles.count : 1; }
-  /// mm: within which the judge looks for turns, beside the largest of the flow faces, and a little more.
-  [[nodiscard]] double turn_window();
+  [[nodiscard]] double sectors_of_hub() const { return flank::internal::sectors_of_hub(roles, faces); }
+  /// The hub, and where the part has a piece of it, what goes on before and behind.
+  [[nodiscard]] std::vector<const Target*> floor();
+  /// All that the tool keeps out of besides the floor, the blades beside the sector that the part lacks among it.
+  [[nodiscard]] std::vector<const Target*> walls();
+  /// What floor() and walls() have more than the part.
+  [[nodiscard]] std::vector<const Target*> missing();
+  /// Unit vector along the wheel's axis: the end from which most of the sides' poses come. With it to the spindle the wheel is clamped.
+  [[nodiscard]] Vec3 up() const;
+  /// What passes of any operation are planned with: tolerance, and turns within the length in which the judge looks for them (and a little
+  /// more), and the directions that a machine holds.
+  [[nodiscard]] PointOptions point_options();
   /// How often `finish` is turned.
   [[nodiscard]] int copies() const { return equal() ? sector.copies : 1; }
 };

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 
 #include "flank/geom/tessellate.h"
 #include "flank/judge.h"
@@ -37,12 +38,14 @@ struct Edge {
   Tool tool;
   Edge() { tool.radial = RadialFunction(ToolFamily::kCone, 6.0, Eigen::Vector2d(kTip, 0.1)); }
 
-  [[nodiscard]] std::vector<Strip> passes(bool finished) const {
+  /// `tilt_deg`: of the axis from +y, at most; none: any.
+  [[nodiscard]] std::vector<Strip> passes(bool finished, std::optional<double> tilt_deg = {}) const {
     FloorChannel around;
     around.walls = {target.get()};
     around.coarse = &coarse;
     PointOptions options;
     options.tolerance_mm = kTolerance;
+    if (tilt_deg) options.held = {Vec3::UnitY(), *tilt_deg * M_PI / 180.0};
     if (finished) options.is_finished = [](const Vec3&) { return true; };
     return face_passes(face, around, tool.radial, options, "edge", "F1");
   }
@@ -69,6 +72,19 @@ TEST(FacePasses, RunAlongTheLongerDirection) {
     EXPECT_EQ(strip.kind, "edge");
     EXPECT_GT(std::abs(strip.poses.back().tip.z() - strip.poses.front().tip.z()), 0.9 * kSpan);
   }
+}
+
+TEST(FacePasses, LeanNoFartherThanAMachineTilts) {
+  const auto largest = [](const std::vector<Strip>& strips) {
+    double most = 0.0;
+    for (const Strip& strip : strips)
+      for (const Pose& pose : strip.poses) most = std::max(most, std::acos(pose.axis.y()));
+    return most * 180.0 / M_PI;
+  };
+  EXPECT_GT(largest(Edge().passes(false)), 60.0);
+  const std::vector<Strip> held = Edge().passes(false, 60.0);
+  EXPECT_GE(held.size(), 3U);
+  EXPECT_LE(largest(held), 60.0 + 1e-9);
 }
 
 TEST(FacePasses, WhatIsFinishedHasNone) { EXPECT_TRUE(Edge().passes(true).empty()); }

@@ -104,12 +104,13 @@ std::vector<BuriedStrip> find_buried(const Setup& setup, const Tool& tool, const
                                      const std::vector<FaceSamples>& samples) {
   std::vector<BuriedStrip> out = verify::strips_in_solids(judged_solids(setup, tool, path), tool, path);
   std::optional<SweptVolume> volume;  // made for sheets alone
+  std::vector<verify::SheetVotes> votes;
   for (const FaceSamples& sheet : samples) {
     if (sheet.of_solid) continue;
     if (!volume) volume.emplace(tool, path);
-    const verify::SheetVotes votes = verify::side_votes(*volume, path, sheet, setup.tolerance_mm);
-    for (const BuriedStrip& strip : verify::strips_behind(votes)) out.push_back(strip);
+    votes.push_back(verify::side_votes(*volume, path, sheet, setup.tolerance_mm));
   }
+  for (const BuriedStrip& strip : verify::strips_behind(votes)) out.push_back(strip);
   // One reason a strip is enough.
   std::stable_sort(out.begin(), out.end(),
                    [](const BuriedStrip& a, const BuriedStrip& b) { return a.strip < b.strip; });

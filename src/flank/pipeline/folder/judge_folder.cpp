@@ -22,6 +22,7 @@
 #include "flank/pipeline/folder/folder_job.h"
 #include "flank/pipeline/folder/judge_job.h"
 #include "flank/pipeline/folder/judge_program.h"
+#include "flank/pipeline/folder/judge_roughing.h"
 #include "flank/results/acceptance.h"
 #include "flank/results/verify_json.h"
 #include "flank/results/view.h"
@@ -107,6 +108,16 @@ void accept_program(const Job& job, Verification& outcome) {
                    outcome.acceptance);
 }
 
+/// Of a wheel's folder: that its path is that of its operations, and roughing.
+void judge_steps(const std::string& folder, const Setup& setup, const Path& path, Verification& outcome) {
+  const std::optional<WheelPlan> plan = read_wheel_plan(folder);
+  if (!plan) return;
+  require_steps_make(*plan, path, (std::filesystem::path(folder) / "path.json").string());
+  const std::optional<JudgedRoughing> roughing = judge_roughing(*plan, setup);
+  accept_steps(*plan, roughing, outcome.acceptance);
+  if (roughing) outcome.notes.push_back(roughing_text(*roughing));
+}
+
 /// `named`: the part, as job.json has it.
 template <class Job>
 Verification judge_path(const VerifyJob& request, const Job& job, const std::string& named, ResultFolder& folder) {
@@ -137,6 +148,7 @@ Verification judge_path(const VerifyJob& request, const Job& job, const std::str
   const BendRadii bends =
       least_bend_radii(path, tool.radial.axis_length(), kToleranceBudget.chord * setup.tolerance_mm);
   accept_bends(job, bends, outcome.acceptance);
+  judge_steps(request.folder, setup, path, outcome);
   std::map<std::string, std::string> files{
       {"verify.json", verify_to_json(outcome.report, outcome.acceptance)},
       {"view.json", view_to_json(make_view(outcome.job, setup, tool, path, outcome.report))}};

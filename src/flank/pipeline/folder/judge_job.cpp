@@ -13,6 +13,7 @@
 #include "flank/pipeline/folder/find_buried.h"
 #include "flank/pipeline/folder/target_reach.h"
 #include "flank/setup/targets.h"
+#include "flank/tool/grown.h"
 #include "flank/verify/judge_faces.h"
 #include "flank/verify/sample_face.h"
 #include "flank/verify/sample_mesh.h"
@@ -148,7 +149,23 @@ std::optional<TurnFigure> turn_of(const Tool& tool, const Path& path, const std:
                     path.strips[turn.strip].poses[turn.pose].tip};
 }
 
+/// A ball in the middle of the tool reaches that much less than the same of the tool that is judged.
+std::optional<FinerReach> without_allowance(const Setup& setup, FinerReach reach) {
+  reach.radius_mm = std::max(0.0, reach.radius_mm - setup.allowance_mm);
+  return reach;
+}
+
+/// Where the wanted face is. Of a sheet that is only checked nobody knows the side.
+void move_out(double allowance_mm, FaceSamples& face) {
+  if (!(allowance_mm > 0.0) || !(face.target || face.of_solid) || face.normals.size() != face.points.size()) return;
+  for (std::size_t k = 0; k < face.points.size(); ++k) face.points[k] += allowance_mm * face.normals[k];
+}
+
 }  // namespace
+
+Tool judged_tool(const Setup& setup, const Tool& tool) {
+  return setup.allowance_mm > 0.0 ? grown(tool, setup.allowance_mm) : tool;
+}
 
 double default_spacing(double diagonal_mm) {
   // Half a millimetre is fine enough for blades of a hand's size; a metre of fan blade would be a million samples. A part of a
@@ -173,6 +190,7 @@ double coarse_spacing(const Setup& setup, double most_samples) {
 
 VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const Tool& tool, const Path& path,
                        DepthProof depth) {
+  const Tool thick = judged_tool(setup, tool);
   const double usual = default_spacing(setup.part.box.diagonal());
   const JudgedShapes shapes(setup, request.sample_mm.value_or(usual),
                             request.sample_mm ? SampleRange() : kUsualSamples);
@@ -181,11 +199,10 @@ VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const To
   // A tool that is none (a fit that failed) has nothing to reach with.
   std::optional<TargetReach> reach;
   std::vector<BuriedStrip> buried;
-  std::vector<FaceSamples> samples;
   if (radius > 0.0) {
-    samples = target_samples(setup, kReachSpacings * usual);
-    reach.emplace(setup, ReachBall{radius, request.reach_radius_mm.has_value()}, samples);
-    buried = find_buried(setup, tool, path, samples);
+    const std::vector<FaceSamples> samples = target_samples(setup, kReachSpacings * usual);
+    reach.emplace(setup, ReachBall{radius + setup.allowance_mm, request.reach_radius_mm.has_value()}, samples);
+    buried = find_buried(setup, thick, path, samples);
   }
   stop_here();
   JudgeOptions options;
@@ -194,17 +211,37 @@ VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const To
   const std::vector<verify::JudgedFace> judged =
       shapes.judged(setup, reach ? &*reach : nullptr, depth == DepthProof::kProved);
   VerifyReport report =
-      verify::judge_faces(tool, path, judged, options, {request.least_coverage, request.least_whole.value_or(0.0)});
+      verify::judge_faces(thick, path, judged, options, {request.least_coverage, request.least_whole.value_or(0.0)});
   report.reach_radius_mm = radius;
-  // What is left of the whole: which tool would reach it?
+  report.allowance_mm = setup.allowance_mm;
+  // What is left of the whole: which tool would reach it? Seldom asked: the samples are made again, not kept beside the judge's own.
   const double wanted = request.least_whole.value_or(request.least_coverage);
-  if (reach && report.coverage < wanted) report.finer_reach = finer_reach(setup, *reach, samples, wanted);
+  if (reach && report.coverage < wanted)
+    report.finer_reach =
+        without_allowance(setup, finer_reach(setup, *reach, target_samples(setup, kReachSpacings * usual), wanted));
   if (request.most_turn_deg > 0.0) report.turn = turn_of(tool, path, judged);
   report.buried = std::move(buried);
   report.sheet_sides = setup.sides;
   if (!report.buried.empty()) report.verdict = Verdict::kOvercut;
   report.unread_faces = unread_faces(setup);
   if (!report.unread_faces.empty() && report.verdict == Verdict::kPass) report.verdict = Verdict::kUnproved;
+  return report;
+}
+
+VerifyReport judge_cuts(const Setup& setup, const Tool& tool, const Path& path) {
+  const Tool thick = judged_tool(setup, tool);
+  const double usual = default_spacing(setup.part.box.diagonal());
+  std::vector<BuriedStrip> buried = find_buried(setup, thick, path, target_samples(setup, kReachSpacings * usual));
+  Setup checked = setup;
+  checked.checks = judged_faces(setup);
+  checked.targets.clear();
+  const JudgedShapes shapes(checked, usual, {});
+  JudgeOptions options;
+  options.tolerance_mm = setup.tolerance_mm;
+  VerifyReport report = verify::judge_faces(thick, path, shapes.judged(checked, nullptr, true), options);
+  report.allowance_mm = setup.allowance_mm;
+  report.buried = std::move(buried);
+  if (!report.buried.empty()) report.verdict = Verdict::kGouge;
   return report;
 }
 
@@ -216,7 +253,9 @@ ProgramStock judge_stock(const Setup& setup, const TrochoidJob& job, const Tool&
   options.most_engagement_deg = job.cycles.most_engagement_deg;
   options.tolerance_mm = setup.tolerance_mm;
   options.most_triangles = most_triangles;
-  return replay_program(tool, path, blank, judge_samples(setup, spacing, 2.0 * spacing), options);
+  std::vector<FaceSamples> samples = judge_samples(setup, spacing, 2.0 * spacing);
+  for (FaceSamples& face : samples) move_out(setup.allowance_mm, face);
+  return replay_program(tool, path, blank, std::move(samples), options);
 }
 
 }  // namespace flank::internal

@@ -73,9 +73,10 @@ JudgedLinks judged_links(const Setup& setup, const JudgeRequest& judge, const To
                          LinkOptions options, double lift_mm) {
   const double spacing = kLiftSampleShare * setup.part.box.diagonal(), tolerance = setup.tolerance_mm;
   const std::vector<FaceSamples> samples = judge_samples(setup, spacing, spacing);
-  LeadSearch search(tool, strips.path, samples, lift_mm, tolerance, options);
+  LeadSearch search(judged_tool(setup, tool), strips.path, samples, lift_mm, tolerance, options);
   JudgeRequest request = judge;
   request.reach_radius_mm = {};
+  request.sample_mm = {};  // of a draft: links are proved all the same
   JudgedLinks best;
   for (int k = 0; k < kMostTries; ++k) {
     JudgedLinks now{with_leads(strips, search, options), {}};

@@ -18,8 +18,8 @@ constexpr std::size_t kStraight = kDirections * kShares.size() + 1, kWays = 2 * 
 constexpr double kNoWay = -1e300;  ///< in the place of a distance
 
 /// The least distance of the tool on these poses from the samples, up to `enough`; any value below `refused` if there is one.
-double least_distance(const Tool& tool, std::vector<Pose> poses, const std::vector<FaceSamples>& samples, double enough,
-                      double refused = -1e300) {
+double least_distance(const SweptVolume& tool, std::vector<Pose> poses, const std::vector<FaceSamples>& samples,
+                      double enough, double refused = -1e300) {
   Path path;
   path.strips.push_back({1, kLinkKind, "", std::move(poses)});
   const SweptVolume volume(tool, path);
@@ -42,8 +42,9 @@ std::vector<Pose> second_half(const std::vector<Pose>& out) {
 }
 
 /// On a lead and on the way from it to the sphere.
-double least_on_way(const Tool& tool, const StripEnd& end, const Lead& lead, const std::vector<FaceSamples>& samples,
-                    const LinkOptions& links, double enough, double refused = -1e300) {
+double least_on_way(const SweptVolume& tool, const StripEnd& end, const Lead& lead,
+                    const std::vector<FaceSamples>& samples, const LinkOptions& links, double enough,
+                    double refused = -1e300) {
   std::vector<Pose> poses = second_half(lead_out(end.contact, lead));
   const std::vector<Pose> rest = way_to_sphere(poses.back(), lead, links);
   poses.insert(poses.end(), rest.begin() + 1, rest.end());
@@ -139,7 +140,7 @@ std::vector<Pose> along_strip(std::vector<Pose> poses, bool from_end, const Vec3
 
 LeadSearch::LeadSearch(const Tool& tool, const Path& strips, const std::vector<FaceSamples>& samples, double lift_mm,
                        double tolerance_mm, const LinkOptions& links)
-    : tool_(tool),
+    : tool_(tool, Path{{{1, kLinkKind, "", {{Vec3::Zero(), Vec3::UnitZ()}}}}}),
       samples_(samples),
       links_(links),
       ends_(ends_of(strips, tool.radial.axis_length())),

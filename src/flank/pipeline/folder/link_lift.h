@@ -42,7 +42,7 @@ class LeadSearch {
   void go_back(const Path& strips);
   [[nodiscard]] bool free(std::size_t end) const { return ways_[end].front().distance >= -tolerance_mm_; }
 
-  const Tool& tool_;
+  SweptVolume tool_;  ///< of one pose: what depends on the tool alone
   const std::vector<FaceSamples>& samples_;
   const LinkOptions& links_;
   std::vector<StripEnd> ends_;

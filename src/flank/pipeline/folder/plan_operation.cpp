@@ -153,6 +153,7 @@ PlannedOperation plan_operation(const PostJob& asked, const OperationWords& word
   Input input = std::visit([&](const auto& job) { return read_input(asked, job, folder, plan.notes); }, found.job);
   plan.facts = post_tool(input.tool);
   plan.request = with_material(asked, plan.facts, plan.notes);
+  plan.judged_in = asked.folder;
   plan.name = words.name.empty() ? operation_name(asked.folder, input.setup) : words.name;
   plan.tool_number = words.tool.value_or(1);
   plan.tool_text = read_file((std::filesystem::path(asked.folder) / "tool.json").string());

@@ -7,7 +7,7 @@
 #include "flank/job.h"
 #include "flank/machine/post.h"
 #include "flank/pipeline/folder/judged_links.h"
-#include "flank/pipeline/folder/operation_words.h"
+#include "flank/pipeline/program/operation_words.h"
 #include "flank/run.h"
 #include "flank/setup/setup.h"
 #include "flank/tool.h"
@@ -15,8 +15,11 @@
 namespace flank::internal {
 
 struct PlannedOperation {
-  PostJob request;   ///< of this folder alone, with the spindle and the feed that its material gives
-  std::string name;  ///< for people
+  PostJob request;            ///< of this folder alone, with the spindle and the feed that its material gives
+  std::string name;           ///< for people
+  int copies = 1;             ///< how often it is run, turned
+  std::string judged_in;      ///< the folder whose verdict holds for it: its own, or that of its wheel
+  bool tells_verdict = true;  ///< of a wheel's operations the first one does for all
   int tool_number = 1;
   Setup setup;
   Tool tool;

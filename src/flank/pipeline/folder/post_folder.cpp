@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numeric>
 
 #include "flank/error.h"
 #include "flank/job/check_fields.h"
@@ -12,9 +13,11 @@
 #include "flank/machine/model/machine_file.h"
 #include "flank/machine/nc/dialects/write_nc.h"
 #include "flank/machine/setup_search.h"
+#include "flank/path_file.h"
 #include "flank/pipeline/folder/machine_scene.h"
 #include "flank/pipeline/folder/plan_operation.h"
 #include "flank/pipeline/folder/post_operation.h"
+#include "flank/pipeline/folder/wheel_plan.h"
 #include "flank/results/acceptance.h"
 
 namespace flank {
@@ -25,8 +28,11 @@ namespace {
 struct ProgramPlan {
   std::vector<PlannedOperation> operations;
   CopyAxis axis;
-  int copies = 1;
-  [[nodiscard]] bool several() const { return operations.size() > 1 || copies > 1; }
+  std::optional<Vec3> up;  ///< of a wheel, along its axis
+  [[nodiscard]] int count() const {
+    return std::accumulate(operations.begin(), operations.end(), 0,
+                           [](int sum, const PlannedOperation& one) { return sum + one.copies; });
+  }
 };
 
 /// The same file of a tool is the same tool: one number, unless the request gives another.
@@ -57,9 +63,39 @@ void require_one_part(const std::vector<PlannedOperation>& operations) {
                        "; expected folders of one part");
 }
 
-ProgramPlan plan_program(const PostJob& request) {
+/// The operations of a wheel's folder, in the order of machining. The verdict of that folder is of all copies, on all faces: a copy needs no part
+/// that is the same when it is turned.
+ProgramPlan plan_wheel(const PostJob& request, const WheelPlan& wheel) {
+  if (request.copies != 1 || request.copy_axis)
+    throw UsageError("copies", "are in plan.json of a wheel's folder; expected none");
+  const std::string file = (std::filesystem::path(request.folder) / "path.json").string();
+  require_steps_make(wheel, read_path(file), file);
+  std::vector<const WheelStep*> steps;
+  for (const WheelStep& step : wheel.steps) {
+    if (!step.done) continue;
+    if (step.copies > 1 && (!wheel.whole || step.copies != wheel.sectors))
+      throw InputError(fmt::format("{}: {} copies of operation {} are not a whole turn of {}; expected a whole wheel",
+                                   request.folder, step.copies, step.id, wheel.sectors));
+    steps.push_back(&step);
+  }
+  const std::vector<OperationWords> words = parse_operations(request.operations, steps.size());
   ProgramPlan plan;
-  plan.copies = request.copies;
+  plan.axis = wheel.axis, plan.up = wheel.up;
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    plan.operations.push_back(plan_operation(request_of(request, steps[k]->folder, words[k]), words[k]));
+    PlannedOperation& one = plan.operations.back();
+    one.copies = steps[k]->copies;
+    one.judged_in = request.folder, one.tells_verdict = k == 0;
+  }
+  number_tools(words, plan.operations);
+  require_one_part(plan.operations);
+  return plan;
+}
+
+ProgramPlan plan_program(const PostJob& request) {
+  if (request.more_folders.empty())
+    if (const std::optional<WheelPlan> wheel = read_wheel_plan(request.folder)) return plan_wheel(request, *wheel);
+  ProgramPlan plan;
   if (request.copy_axis) {
     if (request.copies == 1 && request.clamp != "bore")
       throw UsageError("copy_axis", "needs `copies`: how often each operation is run, or `clamp` bore");
@@ -74,31 +110,28 @@ ProgramPlan plan_program(const PostJob& request) {
   for (std::size_t k = 0; k < each.size(); ++k) plan.operations.push_back(plan_operation(each[k], words[k]));
   number_tools(words, plan.operations);
   require_one_part(plan.operations);
-  if (plan.copies > 1)
-    for (const PlannedOperation& one : plan.operations) require_same_when_turned(one.setup, plan.axis, plan.copies);
+  for (PlannedOperation& one : plan.operations) one.copies = request.copies;
+  if (request.copies > 1)
+    for (const PlannedOperation& one : plan.operations) require_same_when_turned(one.setup, plan.axis, request.copies);
   return plan;
 }
 
-/// Which way up the part is clamped, and on what.
-Clamping clamping_of(const PostJob& request, const ProgramPlan& plan) {
-  if (request.clamp == "bottom") return {.up = Vec3::UnitZ()};
-  if (request.clamp == "bore") return {.up = plan.axis.direction, .centred = plan.axis.point};
-  return {};
+/// Ways to clamp the part, the one that is tried first in front: which way up, and on what. A wheel that may be clamped anyhow sits on its
+/// axis, if the machine can do so.
+std::vector<Clamping> clampings_of(const PostJob& request, const ProgramPlan& plan, bool table_turns) {
+  if (request.clamp == "bottom") return {{.up = Vec3::UnitZ()}};
+  if (request.clamp == "bore") return {{.up = plan.up.value_or(plan.axis.direction), .centred = plan.axis.point}};
+  if (plan.up && table_turns) return {{.up = plan.up, .centred = plan.axis.point}, {}};
+  return {{}};
 }
 
-/// All that the machine must reach, and the operation whose tool needs most room.
-WorkSetup find_setup(const PostJob& request, const Machine& machine, const ProgramPlan& plan, PostOutcome& outcome) {
-  if (request.setup) return parse_setup(*request.setup);
+/// All poses of all copies that the machine must reach.
+SetupSearch all_poses(const Machine& machine, const ProgramPlan& plan) {
   SetupSearch search;
-  const PlannedOperation* largest = &plan.operations.front();
-  Machine longest = machine;
   for (const PlannedOperation& one : plan.operations) {
     const double below = tip_offset(machine, one.facts);
-    if (one.way.tool_radius > largest->way.tool_radius) largest = &one;
-    if (&one == &plan.operations.front() || with_length(machine, one).tool_length > longest.tool_length)
-      longest = with_length(machine, one);
-    for (int copy = 1; copy <= plan.copies; ++copy) {
-      const Path path = turned(one.links.linked.path, copy_turn(plan.axis, copy, plan.copies));
+    for (int copy = 1; copy <= one.copies; ++copy) {
+      const Path path = turned(one.links.linked.path, copy_turn(plan.axis, copy, one.copies));
       for (const Strip& strip : path.strips)
         for (const Pose& p : strip.poses) {
           search.poses.push_back({p.at(-below), p.axis});
@@ -106,14 +139,32 @@ WorkSetup find_setup(const PostJob& request, const Machine& machine, const Progr
         }
     }
   }
+  return search;
+}
+
+WorkSetup find_setup(const PostJob& request, const Machine& machine, const ProgramPlan& plan, PostOutcome& outcome) {
+  if (request.setup) return parse_setup(*request.setup);
+  // The operation whose tool needs most room, and the longest tool.
+  const PlannedOperation* largest = &plan.operations.front();
+  Machine longest = with_length(machine, *largest);
+  for (const PlannedOperation& one : plan.operations) {
+    if (one.way.tool_radius > largest->way.tool_radius) largest = &one;
+    if (with_length(machine, one).tool_length > longest.tool_length) longest = with_length(machine, one);
+  }
   const double below = tip_offset(machine, largest->facts);
-  search.clamping = clamping_of(request, plan);
+  SetupSearch search = all_poses(machine, plan);
   search.upright = [&](const Vec3& up) {
     const Pose p = above(largest->way, up);
     return Pose{p.at(-below), p.axis};
   };
   const MachineScene scene = machine_scene(longest, largest->tool, below);
-  const FoundSetup found = search_setup(longest, Kinematics(longest, longest.tool_length), search, scene.solids);
+  const Kinematics kinematics(longest, longest.tool_length);
+  FoundSetup found;
+  for (const Clamping& clamping : clampings_of(request, plan, machine.joints[kinematics.rotary_joints()[0]].table)) {
+    search.clamping = clamping;
+    found = search_setup(longest, kinematics, search, scene.solids);
+    if (found.setup) break;
+  }
   if (!found.setup)
     throw InputError("setup", fmt::format("machine {} reaches the part in none of {} set-ups tried: {}", machine.name,
                                           found.tried, found.reason));
@@ -147,10 +198,7 @@ void add_operation(const PostOutcome& one, const std::string& before, bool first
   all.minutes += one.minutes;
   all.cutting_minutes += one.cutting_minutes;
   add_joints(one.joints, all.joints);
-  for (const Shortfall& reason : one.acceptance.reasons)
-    all.acceptance.reasons.push_back({reason.figure, before + reason.text});
-  for (const Shortfall& caution : one.acceptance.cautions)
-    all.acceptance.cautions.push_back({caution.figure, before + caution.text});
+  add_under(before, one.acceptance, all.acceptance);
   for (const std::string& note : one.notes) all.notes.push_back(before + note);
   all.operations.insert(all.operations.end(), one.operations.begin(), one.operations.end());
 }
@@ -159,17 +207,17 @@ void add_operation(const PostOutcome& one, const std::string& before, bool first
 std::vector<NcProgram> post_all(const Machine& machine, const ProgramPlan& plan, const WorkSetup& place,
                                 PostOutcome& outcome) {
   std::vector<NcProgram> programs;
-  const int count = static_cast<int>(plan.operations.size()) * plan.copies;
+  const int count = plan.count();
   for (const PlannedOperation& one : plan.operations)
-    for (int copy = 1; copy <= plan.copies; ++copy) {
+    for (int copy = 1; copy <= one.copies; ++copy) {
       NcProgram program;
       const PostOutcome posted =
-          post_operation(with_length(machine, one), one, place, {plan.axis, copy, plan.copies}, program);
+          post_operation(with_length(machine, one), one, place, {plan.axis, copy, one.copies}, program);
       const int number = static_cast<int>(programs.size()) + 1;
       std::string before;
-      if (plan.several()) {
-        program.header.operation = NcOperation{number, count, copy, plan.copies, one.name};
-        if (plan.copies > 1) program.header.copy_axis = copy_axis_text(plan.axis);
+      if (count > 1) {
+        program.header.operation = NcOperation{number, count, copy, one.copies, one.name};
+        if (one.copies > 1) program.header.copy_axis = copy_axis_text(plan.axis);
         before = heading(*program.header.operation);
       }
       add_operation(posted, before, programs.empty(), outcome);

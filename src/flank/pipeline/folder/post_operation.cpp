@@ -57,7 +57,7 @@ EngagementFeed feed_rule(const PlannedOperation& plan, PostOutcome& outcome) {
   rule.most_feed = request.most_feed_mm_min.value_or(kMostFeedFactor * feed) / 60.0;
   if (request.speed != "feed" || !(plan.engagement_rad > 0.0)) return rule;
   if (!plan.engagement_known) {
-    outcome.notes.push_back("no engagement.json: the feed is the same everywhere; flank verify writes it");
+    outcome.notes.push_back("no engagement.json (flank verify writes it): the feed is the same everywhere");
     return rule;
   }
   rule.reference = plan.engagement_rad;
@@ -82,8 +82,8 @@ void judge_machine(const Machine& machine, const Post& result, const MachineScen
 
 /// A program is no better than its path: takes the verdict of the folder. Returns how deep the judge has proved the path to cut at
 /// most, mm; 0 where nobody has judged it.
-double take_verdict(const PostJob& request, PostOutcome& outcome) {
-  const std::string file = (std::filesystem::path(request.folder) / "verify.json").string();
+double take_verdict(const std::string& folder, PostOutcome& outcome) {
+  const std::string file = (std::filesystem::path(folder) / "verify.json").string();
   if (!std::filesystem::exists(file)) {
     add_caution(outcome.acceptance, Figure::kVerdict, "the path was not checked; run `flank verify`");
     return 0.0;
@@ -210,7 +210,7 @@ PostOutcome post_operation(const Machine& machine, const PlannedOperation& plan,
   add_work(plan.setup, plan.obstacles, place, scene);
   judge_machine(machine, result, scene, outcome);
   PostOutcome known;
-  const double depth = take_verdict(plan.request, copy.copy == 1 ? outcome : known);
+  const double depth = take_verdict(plan.judged_in, copy.copy == 1 && plan.tells_verdict ? outcome : known);
   accept_rounding(depth, plan, result, outcome);
   fill_header(plan, result.program.header, outcome);
   outcome.motion = motion_json(machine, result, plan.setup.part.box, place, outcome.acceptance);

@@ -59,8 +59,16 @@ CopyAxis parse_copy_axis(const std::string& text) {
 }
 
 std::string copy_axis_text(const CopyAxis& axis) {
+  // Programs know no exponents, and 1e-12 mm is nothing.
+  const auto plain = [](double value) {
+    std::string text = fmt::format("{:.12f}", value);
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+    return text == "-0" ? std::string("0") : text;
+  };
   const Vec3 &p = axis.point, &d = axis.direction;
-  return fmt::format("{},{},{},{},{},{}", p.x(), p.y(), p.z(), d.x(), d.y(), d.z());
+  return fmt::format("{},{},{},{},{},{}", plain(p.x()), plain(p.y()), plain(p.z()), plain(d.x()), plain(d.y()),
+                     plain(d.z()));
 }
 
 Eigen::Isometry3d copy_turn(const CopyAxis& axis, int copy, int copies) {

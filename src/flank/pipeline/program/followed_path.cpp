@@ -34,7 +34,10 @@ Nearest nearest_on(const Ends& from, const Ends& to, const Ends& x) {
   const double length = tip.squaredNorm() + top.squaredNorm();
   const double along = tip.dot(x.tip - from.tip) + top.dot(x.top - from.top);
   const double share = length > 0.0 ? std::clamp(along / length, 0.0, 1.0) : 0.0;
-  return {share, x.off({from.tip + share * tip, from.top + share * top})};
+  // The axis keeps its length where it turns: its upper end goes along an arc.
+  const Vec3 axis = from.top - from.tip, there = axis + share * (top - tip);
+  const Vec3 at = from.tip + share * tip;
+  return {share, x.off({at, at + there * (axis.norm() / std::max(there.norm(), kSameMm))})};
 }
 
 /// Strips that go on into one another.
@@ -105,15 +108,34 @@ class Follower {
   void go_to(const Ends& here, const PoseMove& move, std::size_t s, std::size_t k) {
     const bool cuts = !move.rapid && !move.from_afar;
     if (at_) {
-      const double way = before_.way(here);
-      const auto next = cuts ? ahead(here, kWayFactor * way + 4.0 * options_.room, way) : std::nullopt;
-      if (next && keeps_between(*next, here)) return arrive(*next, move, s, k);
+      const auto next = cuts ? next_place(here) : std::nullopt;
+      if (next) return arrive(*next, move, s, k);
       leave(move);
       if (at_ && cuts && searches_++ < kMostSearches)
         if (const auto again = ahead(here, 1e300, 0.0)) return arrive(*again, move, s, k);
     }
     // A rapid, or a way from afar, may end where a strip begins, though it should not: that is another question.
     enter(here, move, s, k);
+  }
+
+  /// Where the program is on the path after a block: on the strip that it is on, or, where it has just begun one, on another one that
+  /// begins at the same place.
+  [[nodiscard]] std::optional<Place> next_place(const Ends& here) {
+    const double way = before_.way(here);
+    const auto along = [&]() -> std::optional<Place> {
+      const auto next = ahead(here, kWayFactor * way + 4.0 * options_.room, way);
+      return next && keeps_between(*next, here) ? next : std::nullopt;
+    };
+    if (const auto next = along()) return next;
+    if (at_->to > 0) return {};
+    const Place begun = *at_;
+    for (Chain& chain : chains_) {
+      if (chain.done || chain.told || chain.ends.front().off(before_) > options_.room) continue;
+      at_ = Place{&chain, 0, 0.0};
+      if (const auto next = along()) return next;
+    }
+    at_ = begun;
+    return {};
   }
 
   /// The place ahead that is near enough, and whose way is nearest to `way`.

@@ -171,7 +171,7 @@ class SetUpCheck {
       const std::optional<int> wanted = wanted_tool() ? wanted_tool() : modes.tool;
       if (!modes.length || !wanted || *modes.length == *wanted) return {};
       return fmt::format("{}; expected that of tool {}",
-                         *modes.length == 0 ? std::string("the length of no tool is switched on")
+                         *modes.length == 0 ? std::string("no tool length is switched on")
                                             : fmt::format("the length of tool {} is switched on", *modes.length),
                          *wanted);
     });

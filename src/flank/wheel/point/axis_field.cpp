@@ -1,6 +1,7 @@
 #include "flank/wheel/point/axis_field.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -14,17 +15,36 @@ constexpr double kTilt = 10.0;          ///< degrees between tilts; the least ke
 constexpr int kChoices = 30, kSmoothings = 12;  ///< rounds over all nodes
 constexpr double kShortOfRoom = 4.0;            ///< radians that neighbours may differ for a millimetre of room more
 
+constexpr double kRoomEnough = 0.6 * TipRoom::kEnoughMm;  ///< mm: a direction with so much need not be given up
+
+/// Four nodes beside a place of 0 ... count - 1 and what they weigh: a uniform cubic B-spline, so that neither the direction nor how fast
+/// it turns jumps at a node. Beyond the ends the last node stands for those that are not there.
+struct Span {
+  std::array<int, 4> node;
+  std::array<double, 4> weight;
+};
+Span span_of(double at, int count) {
+  const double x = std::clamp(at, 0.0, count - 1.0);
+  const int first = std::min(static_cast<int>(x), std::max(0, count - 2));
+  const double t = x - first, u = 1.0 - t;
+  Span out{{},
+           {u * u * u / 6.0, (3.0 * t * t * t - 6.0 * t * t + 4.0) / 6.0, (3.0 * u * u * u - 6.0 * u * u + 4.0) / 6.0,
+            t * t * t / 6.0}};
+  for (int k = 0; k < 4; ++k) out.node[static_cast<std::size_t>(k)] = std::clamp(first - 1 + k, 0, count - 1);
+  return out;
+}
+
 double angle_of(const Vec3& a, const Vec3& b) { return 2.0 * std::atan2((a - b).norm(), (a + b).norm()); }
 
 }  // namespace
 
 AxisField::AxisField(const TipRoom& room, const std::vector<std::optional<TipRoom::Rest>>& places, int rows,
-                     int columns)
-    : rows_(rows), columns_(columns), nodes_(places.size()) {
+                     int columns, const AxisField* before)
+    : rows_(rows), columns_(columns), held_(room.held()), nodes_(places.size()) {
   parallel_for(places.size(), [&](std::size_t k) {
     if (!places[k]) return;
     nodes_[k].present = true, nodes_[k].center = places[k]->center, nodes_[k].normal = places[k]->normal;
-    look(room, nodes_[k]);
+    if (before == nullptr || !takes(room, before->nodes_[k].axis, nodes_[k])) look(room, nodes_[k]);
   });
   choose();
   fill();
@@ -36,6 +56,13 @@ Vec3 AxisField::direction(const Node& node, std::size_t k) const {
                round = 2.0 * std::numbers::pi * static_cast<double>(k % kRound) / kRound;
   const Vec3 e = node.normal.unitOrthogonal(), f = node.normal.cross(e);
   return std::cos(tilt) * node.normal + std::sin(tilt) * (std::cos(round) * e + std::sin(round) * f);
+}
+
+bool AxisField::takes(const TipRoom& room, const Vec3& axis, Node& node) {
+  const double here = room.rough_room({node.center, axis}, kRoomEnough);
+  if (here <= kRoomEnough) return false;
+  node.axis = axis, node.room = here;
+  return true;
 }
 
 void AxisField::look(const TipRoom& room, Node& node) const {
@@ -65,7 +92,7 @@ void AxisField::choose() {
   for (int round = 0; round < kChoices; ++round)
     for (std::size_t n = 0; n < nodes_.size(); ++n) {
       Node& node = nodes_[n];
-      if (!node.present) continue;
+      if (!node.present || node.rooms.empty()) continue;
       const std::vector<std::size_t> others = beside(n);
       double least = 1e300;
       for (std::size_t k = 0; k < node.rooms.size(); ++k) {
@@ -106,8 +133,8 @@ void AxisField::smooth(const TipRoom& room) {
         if (!node.present || static_cast<std::size_t>((row + column) % 2) != colour) return;
         Vec3 sum = node.axis;
         for (const std::size_t other : beside(n)) sum += nodes_[other].axis;
-        const double enough = std::min(node.room, 0.6 * TipRoom::kEnoughMm);
-        const Vec3 axis = sum.normalized();
+        const double enough = std::min(node.room, kRoomEnough);
+        const Vec3 axis = held_.nearest(sum.normalized());
         const double here = room.rough_room({node.center, axis}, enough - 1e-9);
         if (here >= enough - 1e-9) node.axis = axis, node.room = here;
       });
@@ -115,16 +142,13 @@ void AxisField::smooth(const TipRoom& room) {
 }
 
 Vec3 AxisField::at(double row, double column) const {
-  const double r = std::clamp(row, 0.0, rows_ - 1.0), c = std::clamp(column, 0.0, columns_ - 1.0);
-  const int i = std::min(static_cast<int>(r), std::max(0, rows_ - 2)),
-            j = std::min(static_cast<int>(c), std::max(0, columns_ - 2));
-  const double x = r - i, y = c - j;
-  const auto axis = [&](int a, int b) -> const Vec3& {
-    return nodes_[static_cast<std::size_t>(std::min(a, rows_ - 1) * columns_ + std::min(b, columns_ - 1))].axis;
-  };
-  return ((1.0 - x) * ((1.0 - y) * axis(i, j) + y * axis(i, j + 1)) +
-          x * ((1.0 - y) * axis(i + 1, j) + y * axis(i + 1, j + 1)))
-      .normalized();
+  const Span rows = span_of(row, rows_), columns = span_of(column, columns_);
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < 4; ++j)
+      sum += rows.weight[i] * columns.weight[j] *
+             nodes_[static_cast<std::size_t>(rows.node[i] * columns_ + columns.node[j])].axis;
+  return held_.nearest(sum.normalized());
 }
 
 double AxisField::least_room() const {

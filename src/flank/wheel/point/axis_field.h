@@ -11,8 +11,11 @@ namespace flank::internal {
 /// floor's normal those with room, chosen so that neighbours are alike, and smoothed as far as the room lasts.
 class AxisField {
  public:
-  /// `places`: rows * columns, row by row; those without a floor count as absent.
-  AxisField(const TipRoom& room, const std::vector<std::optional<TipRoom::Rest>>& places, int rows, int columns);
+  /// `places`: rows * columns, row by row; those without a floor count as absent. `before`: a field over the same rows and columns, null:
+  /// none; where its direction has room here, too, it is taken, and no other is looked for.
+  AxisField(const TipRoom& room, const std::vector<std::optional<TipRoom::Rest>>& places, int rows, int columns,
+            const AxisField* before = nullptr);
+  [[nodiscard]] int columns() const { return columns_; }
   /// Between the nodes; row and column from 0 to their number less 1.
   [[nodiscard]] Vec3 at(double row, double column) const;
   /// Least room of the nodes that are there, as rough_room() counts, mm.
@@ -22,9 +25,11 @@ class AxisField {
   struct Node {
     bool present = false;
     Vec3 center = Vec3::Zero(), normal = Vec3::UnitZ(), axis = Vec3::UnitZ();
-    std::vector<double> rooms;  ///< of each direction
+    std::vector<double> rooms;  ///< of each direction; empty: the axis is taken as it is
     double room = -1e300;
   };
+  /// Whether there is room for a direction, which is then the node's.
+  [[nodiscard]] static bool takes(const TipRoom& room, const Vec3& axis, Node& node);
   void look(const TipRoom& room, Node& node) const;
   void choose();
   void smooth(const TipRoom& room);
@@ -33,6 +38,7 @@ class AxisField {
   [[nodiscard]] std::vector<std::size_t> beside(std::size_t k) const;
 
   int rows_, columns_;
+  TiltCone held_;
   std::vector<Node> nodes_;
 };
 

@@ -7,6 +7,7 @@
 #include "flank/feature/wheel_axis.h"
 #include "flank/geom/triangle_bvh.h"
 #include "flank/target.h"
+#include "flank/wheel/point/tilt_cone.h"
 
 namespace flank::internal {
 
@@ -19,7 +20,7 @@ struct FloorChannel {
   std::vector<const Target*> walls;  ///< all that the tool keeps out of besides the floor: sides, edges, tips, fillets
   const TriangleBvh* coarse =
       nullptr;            ///< floor and walls as triangles: where directions are looked for; null: no such search
-  double blade_mm = 0.0;  ///< thickness of the blades: so far the floor goes on beyond a side's end
+  double blade_mm = 0.0;  ///< thickness of the blades at their feet: so far the floor goes on beyond a side's end
 };
 
 struct PointOptions {
@@ -30,6 +31,7 @@ struct PointOptions {
   double turn_window_mm = 1.0;
   double height_mm = 0.0;  ///< of a roughing layer over the floor; 0: the floor itself
   double apart_mm = 0.0;   ///< between passes; 0: as the scallop says
+  TiltCone held = {};      ///< the axes that there may be
   /// Whether the tip at a place of its centre is in the air, and no pass is needed there; empty: nowhere.
   std::function<bool(const Vec3&)> is_air = {};
   /// Whether a place of a wall is finished already; empty: none is.

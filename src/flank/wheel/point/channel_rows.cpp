@@ -17,6 +17,7 @@ constexpr int kHalvings = 10;        ///< of the search for the outermost free p
 constexpr double kMostSlope = 0.15;  ///< of the outermost pass against the channel
 constexpr double kBeyondShare =
     0.6;  ///< of a blade's thickness, that the floor is taken beyond a side's line where no blade stands
+constexpr double kLeastSquare = 0.2;
 constexpr double kEndMm = 4.0;  ///< of a line's end, that says how the channel goes on
 
 /// A line that goes on beyond its ends beside another one, or, where that has ended, too, as both of them together ran there.
@@ -56,6 +57,7 @@ ChannelRows::ChannelRows(const FloorChannel& channel, const TipRoom& room)
   const double whole = 2.0 * std::numbers::pi;
   second.turn(-whole * std::floor((second.angle(middle) - first.angle(middle)) / whole));
   place_rows(first, second);
+  square_up();
   parallel_for(rows_.size(), [&](std::size_t k) { bound(rows_[k]); });
   even_out();
 }
@@ -79,12 +81,29 @@ void ChannelRows::place_rows(const SideLine& first, const SideLine& second) {
   }
 }
 
+/// By both lines and the middle: the channel is no narrower than where it winds least.
+void ChannelRows::square_up() {
+  for (std::size_t k = 0; k < rows_.size() && rows_.size() > 1; ++k) {
+    const ChannelRow &before = rows_[k - std::min<std::size_t>(k, 1)],
+                     &after = rows_[std::min(k + 1, rows_.size() - 1)];
+    double most = 0.0;
+    for (const double across : {0.0, 0.5, 1.0}) {
+      const auto place = [&](const ChannelRow& row) {
+        return map_.place(row.way, row.first + across * (row.second - row.first));
+      };
+      const Vec3 here = place(rows_[k]), along = place(after) - place(before);
+      most = std::max(most, channel_.axis.around(here).cross(along.normalized()).norm());
+    }
+    rows_[k].square = most;
+  }
+}
+
 std::optional<TipRoom::Rest> ChannelRows::at(const ChannelRow& row, double across) const {
   return room_.rest(map_.place(row.way, row.first + across * (row.second - row.first)));
 }
 
 void ChannelRows::bound(ChannelRow& row) const {
-  const double beyond = kBeyondShare * channel_.blade_mm / row.width;
+  const double beyond = kBeyondShare * channel_.blade_mm / (std::max(row.square, kLeastSquare) * row.width);
   const auto is_free = [&](double across) {
     const std::optional<TipRoom::Rest> here = at(row, across);
     return here && room_.tip_is_free(here->center);
@@ -105,7 +124,7 @@ void ChannelRows::bound(ChannelRow& row) const {
     }
     return good;
   };
-  row.low = outermost(-beyond), row.high = outermost(1.0 + beyond);
+  row.low = row.free_low = outermost(-beyond), row.high = row.free_high = outermost(1.0 + beyond);
   row.open = true;
 }
 

@@ -12,9 +12,12 @@ namespace flank::internal {
 struct ChannelRow {
   double way = 0.0;                  ///< on the floor's meridian, mm
   double first = 0.0, second = 0.0;  ///< angles of the two sides' lines
-  double width = 0.0;                ///< between them, mm
-  double along = 0.0;                ///< along the middle of the channel, mm
-  double low = 0.0, high = 1.0;      ///< between which the tip is free
+  double width = 0.0;                ///< between them round the axis, mm
+  double square = 1.0;           ///< of a millimetre round the axis, what is across the channel: less where it winds
+  double along = 0.0;            ///< along the middle of the channel, mm
+  double low = 0.0, high = 1.0;  ///< from pass to pass, evenly along the channel
+  double free_low = 0.0,
+         free_high = 1.0;  ///< between which the tip is free: beyond `low` and `high` before and behind a blade
   bool open = false;
 };
 
@@ -30,6 +33,7 @@ class ChannelRows {
  private:
   [[nodiscard]] std::optional<TipRoom::Rest> at(const ChannelRow& row, double across) const;
   void place_rows(const SideLine& first, const SideLine& second);
+  void square_up();
   void bound(ChannelRow& row) const;
   void even_out();
 

@@ -17,8 +17,10 @@ namespace {
 constexpr double kStepMm = 0.5;      ///< between poses
 constexpr double kNetMm = 2.5;       ///< of the net of directions, along
 constexpr std::size_t kColumns = 9;  ///< and across, at most
-constexpr double kLeastMm = 0.01;    ///< poses that are nearer to each other are one
-constexpr int kHalvings = 8;         ///< of the search for the end of a pass's room
+constexpr double kLinkMm =
+    20.0;  ///< of a pass, that takes no longer than a link from its end to the next one's beginning
+constexpr double kLeastMm = 0.01;  ///< poses that are nearer to each other are one
+constexpr int kHalvings = 8;       ///< of the search for the end of a pass's room
 
 /// Of each line, its places that need a pass.
 using AskedPlaces = std::vector<std::vector<char>>;
@@ -97,16 +99,19 @@ Pose last_with_room(const Work& work, std::size_t line, double good, double bad,
   return pose;
 }
 
-/// Places of a line that need a pass: what is not finished, and a neighbour on either side.
+/// Places of a line that need a pass: what is not finished, a neighbour on either side, and what lies between two of them that a link
+/// would take longer to leave out.
 std::vector<char> needed(const FaceLines& lines, const PointOptions& options, std::size_t line) {
-  const std::size_t count = lines.places();
-  std::vector<char> open(count, 0), out(count, 0);
+  const std::size_t count = lines.places(), gap = static_cast<std::size_t>(kLinkMm / kStepMm);
+  std::vector<char> out(count, 0);
+  std::size_t after_last = 0;  // the place after the last one that is open; 0: none yet
   for (std::size_t k = 0; k < count; ++k) {
     const auto place = lines.at(line, static_cast<double>(k));
-    open[k] = place && !(options.is_finished && options.is_finished(place->point)) ? 1 : 0;
+    if (!place || (options.is_finished && options.is_finished(place->point))) continue;
+    const std::size_t from = after_last > 0 && k - after_last <= gap ? after_last : k - std::min<std::size_t>(k, 1);
+    for (std::size_t i = from; i < std::min(count, k + 2); ++i) out[i] = 1;
+    after_last = k + 1;
   }
-  for (std::size_t k = 0; k < count; ++k)
-    out[k] = open[k] != 0 || (k > 0 && open[k - 1] != 0) || (k + 1 < count && open[k + 1] != 0) ? 1 : 0;
   return out;
 }
 
@@ -142,7 +147,7 @@ std::vector<Strip> face_passes(const Face& face, const FloorChannel& around, con
   std::vector<PoseRow> found(lines.lines());
   parallel_for(found.size(), [&](std::size_t line) { found[line] = row_of(work, line, wanted[line]); });
   std::vector<Strip> out;
-  add_strips(std::move(found), radial, options, kind, name, out);
+  add_strips(std::move(found), room, radial, options, kind, name, out);
   return out;
 }
 

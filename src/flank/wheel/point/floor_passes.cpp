@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -14,8 +15,11 @@ namespace flank::internal {
 namespace {
 
 constexpr int kMostPasses = 1024;
-constexpr int kColumns = 9;     ///< of the net of directions, across
-constexpr double kNetMm = 2.5;  ///< and along
+constexpr int kFewestColumns = 9;     ///< of the net of directions, across
+constexpr double kColumnMm = 4.0;     ///< between them, at most
+constexpr double kNetMm = 2.5;        ///< and along
+constexpr int kAxes = 5;              ///< that are tried at a place
+constexpr double kLeastBeyond = 0.1;  ///< of the way from pass to pass: less room beside the outermost one is none
 
 /// Between passes on a floor that bends like this across, mm.
 double spacing(double tip_mm, double bend, const PointOptions& options) {
@@ -35,69 +39,122 @@ struct Plan {
   const ChannelRows& channel;
   const TipRoom& room;
   const PointOptions& options;
-  std::vector<double> steps;  ///< between passes, of each row, mm; 0: none there
+  std::vector<double> parts;  ///< of each row, that the scallop asks for at least; 0: no pass is there
   std::size_t passes = 0;
 };
 
-/// As many passes as the widest row needs. In narrow rows each second, fourth ... is left out.
+/// Of a row of `whole` parts, each 2^k-th one is a pass: the largest 2^k that leaves `fewest` parts at least.
+std::size_t stride_of(double whole, double fewest) {
+  std::size_t stride = 1;
+  while (2.0 * static_cast<double>(stride) * fewest <= whole) stride *= 2;
+  return stride;
+}
+
+/// Enough passes for the row that needs most of them. In narrower rows each second, fourth ... is left out: of up to twice as many, the
+/// number is taken with which all rows together have the fewest.
 void count_passes(Plan& plan) {
   const std::vector<ChannelRow>& rows = plan.channel.rows();
   double most = 1.0;
   for (const ChannelRow& row : rows) {
     const std::optional<TipRoom::Rest> middle = row.open ? plan.channel.rest(row, 0.5) : std::nullopt;
-    plan.steps.push_back(middle ? spacing(plan.room.tip_mm(), middle->k1, plan.options) : 0.0);
-    if (middle) most = std::max(most, std::ceil((row.high - row.low) * row.width / plan.steps.back()));
+    plan.parts.push_back(0.0);
+    if (!middle) continue;
+    const double wide = (row.high - row.low) * row.width * row.square;
+    plan.parts.back() = std::max(1.0, wide / spacing(plan.room.tip_mm(), middle->k1, plan.options));
+    most = std::max(most, std::ceil(plan.parts.back()));
   }
-  plan.passes = static_cast<std::size_t>(std::min<double>(most, kMostPasses)) + 1;
+  most = std::min<double>(most, kMostPasses);
+  double least = std::numeric_limits<double>::infinity(), best = most;
+  for (double whole = most; whole < 2.0 * most; ++whole) {
+    double all = 0.0;
+    for (const double fewest : plan.parts)
+      if (fewest > 0.0) all += std::ceil(whole / static_cast<double>(stride_of(whole, fewest)));
+    if (all < least) least = all, best = whole;
+  }
+  plan.passes = static_cast<std::size_t>(best) + 1;
 }
 
 /// Whether pass j is needed in a row. Those whose number has more factors of two are left out last.
 bool is_needed(const Plan& plan, std::size_t row, std::size_t j) {
-  const ChannelRow& here = plan.channel.rows()[row];
-  if (!here.open || !(plan.steps[row] > 0.0)) return false;
+  if (!plan.channel.rows()[row].open || !(plan.parts[row] > 0.0)) return false;
   if (j == 0 || j + 1 == plan.passes) return true;
-  const double apart = (here.high - here.low) * here.width / (static_cast<double>(plan.passes) - 1.0);
-  std::size_t stride = 1;
-  while (2.0 * static_cast<double>(stride) * apart <= plan.steps[row]) stride *= 2;
-  return j % stride == 0;
+  return j % stride_of(static_cast<double>(plan.passes) - 1.0, plan.parts[row]) == 0;
 }
 
-AxisField field_of(const ChannelRows& channel, const TipRoom& room) {
+int columns_of(const std::vector<ChannelRow>& rows) {
+  double widest = 0.0;
+  for (const ChannelRow& row : rows)
+    if (row.open) widest = std::max(widest, (row.high - row.low) * row.width);
+  return std::max(kFewestColumns, static_cast<int>(std::ceil(widest / kColumnMm)) + 1);
+}
+
+AxisField field_of(const ChannelRows& channel, const TipRoom& room, const AxisField* before = nullptr) {
   const std::vector<ChannelRow>& rows = channel.rows();
-  const int stride = net_stride(rows), count = (static_cast<int>(rows.size()) - 1) / stride + 1;
-  std::vector<std::optional<TipRoom::Rest>> places(static_cast<std::size_t>(count * kColumns));
+  const int stride = net_stride(rows), count = (static_cast<int>(rows.size()) - 1) / stride + 1,
+            columns = before != nullptr ? before->columns() : columns_of(rows);
+  std::vector<std::optional<TipRoom::Rest>> places(static_cast<std::size_t>(count * columns));
   parallel_for(places.size(), [&](std::size_t k) {
-    const ChannelRow& row = rows[k / kColumns * static_cast<std::size_t>(stride)];
-    if (row.open) places[k] = channel.rest(row, static_cast<double>(k % kColumns) / (kColumns - 1));
+    const std::size_t across = k % static_cast<std::size_t>(columns), along = k / static_cast<std::size_t>(columns);
+    const ChannelRow& row = rows[along * static_cast<std::size_t>(stride)];
+    if (row.open) places[k] = channel.rest(row, static_cast<double>(across) / (columns - 1));
   });
-  return {room, places, count, kColumns};
+  return {room, places, count, columns, before};
+}
+
+std::optional<Pose> pose_at(const Plan& plan, const AxisField& field, std::size_t row, double share) {
+  const std::vector<ChannelRow>& rows = plan.channel.rows();
+  if (!rows[row].open) return {};
+  const std::optional<TipRoom::Rest> rest = plan.channel.rest(rows[row], share);
+  if (!rest || (plan.options.is_air && plan.options.is_air(rest->center))) return {};
+  // Beside a blade the axis of a place nearer to the middle may have room where its own has none.
+  for (int k = 0; k < kAxes; ++k) {
+    const double column = std::lerp(std::clamp(share, 0.0, 1.0), 0.5, k / (kAxes - 1.0)) * (field.columns() - 1);
+    const Pose pose{rest->center, field.at(static_cast<double>(row) / net_stride(rows), column)};
+    if (plan.room.is_free(pose)) return pose;
+  }
+  return {};
 }
 
 /// A pass: what is not needed and what has no room is absent.
-PoseRow floor_row(const Plan& plan, const AxisField& field, double stride, std::size_t j) {
-  const std::vector<ChannelRow>& rows = plan.channel.rows();
+PoseRow floor_row(const Plan& plan, const AxisField& field, std::size_t j) {
+  const std::size_t count = plan.parts.size();
   const double share = static_cast<double>(j) / std::max(1.0, static_cast<double>(plan.passes) - 1.0);
-  PoseRow out(rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
+  PoseRow out(count);
+  for (std::size_t i = 0; i < count; ++i)
     // A row beyond the last one that needs this pass is taken along: neighbours change over between rows.
-    const bool needed = is_needed(plan, i, j) || (i > 0 && is_needed(plan, i - 1, j)) ||
-                        (i + 1 < rows.size() && is_needed(plan, i + 1, j));
-    if (!needed || !rows[i].open) continue;
-    const std::optional<TipRoom::Rest> rest = plan.channel.rest(rows[i], share);
-    if (!rest || (plan.options.is_air && plan.options.is_air(rest->center))) continue;
-    const Pose pose{rest->center, field.at(static_cast<double>(i) / stride, share * (kColumns - 1))};
-    if (plan.room.is_free(pose)) out[i] = pose;
+    if (is_needed(plan, i, j) || (i > 0 && is_needed(plan, i - 1, j)) || (i + 1 < count && is_needed(plan, i + 1, j)))
+      out[i] = pose_at(plan, field, i, share);
+  return out;
+}
+
+/// Before and behind a blade: the j-th pass, from 1 on, beyond the outermost one of the channel, as far as the tip is free there. The last
+/// one of each row is as far out as that.
+PoseRow row_beyond(const Plan& plan, const AxisField& field, std::size_t j, bool at_low) {
+  PoseRow out(plan.parts.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const ChannelRow& row = plan.channel.rows()[i];
+    if (!row.open || !(plan.parts[i] > 0.0)) continue;
+    const double room = (at_low ? row.low - row.free_low : row.free_high - row.high) / (row.high - row.low),
+                 before = (static_cast<double>(j) - 1.0) / plan.parts[i];
+    if (room - before < kLeastBeyond / plan.parts[i]) continue;
+    const double beyond = std::min(room, before + 1.0 / plan.parts[i]);
+    out[i] = pose_at(plan, field, i, at_low ? -beyond : 1.0 + beyond);
   }
   return out;
 }
 
 std::vector<PoseRow> floor_rows(const ChannelRows& rows, const TipRoom& room, const PointOptions& options,
                                 const AxisField& field) {
-  const double stride = net_stride(rows.rows());
   Plan plan{rows, room, options, {}, 0};
   count_passes(plan);
   std::vector<PoseRow> found(plan.passes);
-  parallel_for(found.size(), [&](std::size_t j) { found[j] = floor_row(plan, field, stride, j); });
+  parallel_for(found.size(), [&](std::size_t j) { found[j] = floor_row(plan, field, j); });
+  for (const bool at_low : {true, false})
+    for (int j = 1; j < kMostPasses; ++j) {
+      PoseRow beyond = row_beyond(plan, field, static_cast<std::size_t>(j), at_low);
+      if (std::none_of(beyond.begin(), beyond.end(), [](const auto& pose) { return pose.has_value(); })) break;
+      found.push_back(std::move(beyond));
+    }
   return found;
 }
 
@@ -110,26 +167,36 @@ std::vector<Strip> point_passes(const FloorChannel& channel, const RadialFunctio
   if (rows.rows().size() < 3) return {};
   const AxisField field = field_of(rows, room);
   std::vector<Strip> out;
-  add_strips(floor_rows(rows, room, options, field), radial, options, "floor", floor, out);
+  add_strips(floor_rows(rows, room, options, field), room, radial, options, "floor", floor, out);
   const double stride = net_stride(rows.rows());
   for (const bool at_first : {true, false}) {
     const auto axis = [&](std::size_t row, double inwards) {
-      const double column = (kColumns - 1) * inwards;
-      return field.at(static_cast<double>(row) / stride, at_first ? column : kColumns - 1 - column);
+      const double last = field.columns() - 1.0, column = last * inwards;
+      return field.at(static_cast<double>(row) / stride, at_first ? column : last - column);
     };
-    add_strips(wall_rows({channel, rows, room, options, axis, at_first}), radial, options, "wall",
+    add_strips(wall_rows({channel, rows, room, options, axis, at_first}), room, radial, options, "wall",
                at_first ? first : second, out);
   }
   return out;
 }
 
-std::vector<Strip> layer_passes(const FloorChannel& channel, const RadialFunction& radial, const PointOptions& options,
-                                const std::string& floor) {
-  const TipRoom room(channel, radial, options);
-  const ChannelRows rows(channel, room);
-  if (rows.rows().size() < 3) return {};
-  std::vector<Strip> out;
-  add_strips(floor_rows(rows, room, options, field_of(rows, room)), radial, options, "rough", floor, out);
+std::vector<std::vector<Strip>> layer_passes(const FloorChannel& channel, const RadialFunction& radial,
+                                             const PointOptions& options, const std::vector<double>& heights_mm,
+                                             const std::string& floor) {
+  std::vector<std::vector<Strip>> out;
+  std::optional<AxisField> below;
+  for (const double height : heights_mm) {
+    PointOptions here = options;
+    here.height_mm = height;
+    const TipRoom room(channel, radial, here);
+    // Rows and columns of the field are the same at every height: they follow from the sides' lines on the floor.
+    const ChannelRows rows(channel, room);
+    out.emplace_back();
+    if (rows.rows().size() < 3) continue;
+    AxisField field = field_of(rows, room, below ? &*below : nullptr);
+    add_strips(floor_rows(rows, room, here, field), room, radial, here, "rough", floor, out.back());
+    below = std::move(field);
+  }
   return out;
 }
 

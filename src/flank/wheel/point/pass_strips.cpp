@@ -10,28 +10,67 @@ namespace {
 
 constexpr double kShortestMm = 1.0;  ///< strips that are shorter are not worth a link
 constexpr std::size_t kFewestPoses = 3;
+constexpr double kStillMm = 1e-9;
+constexpr int kTurnRounds = 120;     ///< in which axes are turned
+constexpr std::size_t kAround = 10;  ///< poses to either side of a turn, whose axes are turned
 
-}  // namespace
-
-void add_strip(Strip strip, const RadialFunction& radial, const PointOptions& options, std::vector<Strip>& out) {
+/// Pieces that turn nowhere too sharply, in their order; those that are not worth a link are left out.
+void cut_at_turns(Strip strip, const RadialFunction& radial, const PointOptions& options, std::vector<Strip>& pieces) {
   double length = 0.0;
   for (std::size_t k = 1; k < strip.poses.size(); ++k) length += (strip.poses[k].tip - strip.poses[k - 1].tip).norm();
   if (strip.poses.size() < kFewestPoses || length < kShortestMm) return;
   const Turning turn = sharpest_turn(strip.poses, radial.axis_length(), options.turn_window_mm);
   if (turn.angle_rad <= options.most_turn_rad) {
-    out.push_back(std::move(strip));
+    pieces.push_back(std::move(strip));
     return;
   }
   const auto cut = static_cast<std::ptrdiff_t>(std::clamp<std::size_t>(turn.pose, 1, strip.poses.size() - 2));
   Strip rest = strip;
   rest.poses.erase(rest.poses.begin(), rest.poses.begin() + cut);
   strip.poses.erase(strip.poses.begin() + cut + 1, strip.poses.end());
-  add_strip(std::move(strip), radial, options, out);
-  add_strip(std::move(rest), radial, options, out);
+  cut_at_turns(std::move(strip), radial, options, pieces);
+  cut_at_turns(std::move(rest), radial, options, pieces);
 }
 
-void add_strips(std::vector<PoseRow> rows, const RadialFunction& radial, const PointOptions& options,
-                const std::string& kind, const std::string& face, std::vector<Strip>& out) {
+}  // namespace
+
+void add_strip(Strip strip, const RadialFunction& radial, const PointOptions& options, std::vector<Strip>& out) {
+  std::vector<Strip> pieces;
+  cut_at_turns(std::move(strip), radial, options, pieces);
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    // Each other one the other way round: where one ends another one that begins would be run on without a link, round the corner.
+    if (k % 2 == 1) std::reverse(pieces[k].poses.begin(), pieces[k].poses.end());
+    out.push_back(std::move(pieces[k]));
+  }
+}
+
+void steady(Strip& strip, const TipRoom& room, const RadialFunction& radial, const PointOptions& options) {
+  std::vector<Pose>& poses = strip.poses;
+  if (poses.size() < kFewestPoses) return;
+  for (int round = 0; round < kTurnRounds; ++round) {
+    const Turning turn = sharpest_turn(poses, radial.axis_length(), options.turn_window_mm);
+    if (turn.angle_rad <= options.most_turn_rad) return;
+    const std::size_t from = std::max(kAround, turn.pose) - kAround + 1,
+                      to = std::min(poses.size() - 1, turn.pose + kAround);
+    const std::vector<Pose> before = poses;
+    bool any = false;
+    for (std::size_t k = from; k < to; ++k) {
+      const Pose &back = before[k - 1], &on = before[k + 1];
+      const double behind = (before[k].tip - back.tip).norm(), ahead = (on.tip - before[k].tip).norm();
+      // Places of a pass need not be even: the axis between its neighbours' is the one by the way.
+      const Vec3 between = ((ahead * back.axis + behind * on.axis) / std::max(ahead + behind, kStillMm)).normalized();
+      const Pose turned{before[k].tip, (before[k].axis + between).normalized()};
+      if (!room.is_free(turned)) continue;
+      poses[k] = turned;
+      any = true;
+    }
+    if (!any) return;
+  }
+}
+
+void add_strips(std::vector<PoseRow> rows, const TipRoom& room, const RadialFunction& radial,
+                const PointOptions& options, const std::string& kind, const std::string& face,
+                std::vector<Strip>& out) {
   for (std::size_t j = 0; j < rows.size(); ++j) {
     if (j % 2 == 1) std::reverse(rows[j].begin(), rows[j].end());
     Strip strip{.id = 1, .kind = kind, .face = face, .poses = {}};
@@ -41,6 +80,7 @@ void add_strips(std::vector<PoseRow> rows, const RadialFunction& radial, const P
         strip.poses.push_back(*pose);
         continue;
       }
+      steady(strip, room, radial, options);
       add_strip(strip, radial, options, out);
       strip.poses.clear();
     }

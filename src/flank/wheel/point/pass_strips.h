@@ -8,17 +8,22 @@
 #include "flank/path.h"
 #include "flank/radial_function.h"
 #include "flank/wheel/point/channel.h"
+#include "flank/wheel/point/tip_room.h"
 
 namespace flank::internal {
 
 /// A pass, place by place along the channel; absent where it must not run or need not.
 using PoseRow = std::vector<std::optional<Pose>>;
 
-/// The strip; in two where it turns too sharply, until no piece does. Pieces that are not worth a link are left out.
+/// The strip; in pieces where it turns too sharply, none of which begins where another one ends. Pieces that are not worth a link are left
+/// out.
 void add_strip(Strip strip, const RadialFunction& radial, const PointOptions& options, std::vector<Strip>& out);
 
-/// Stretches of poses that are there, as strips; each other row the other way round.
-void add_strips(std::vector<PoseRow> rows, const RadialFunction& radial, const PointOptions& options,
-                const std::string& kind, const std::string& face, std::vector<Strip>& out);
+/// Turns axes towards those of their neighbours where a strip turns too sharply, as far as they have room there.
+void steady(Strip& strip, const TipRoom& room, const RadialFunction& radial, const PointOptions& options);
+
+/// Stretches of poses that are there, as strips, with steady axes; each other row the other way round.
+void add_strips(std::vector<PoseRow> rows, const TipRoom& room, const RadialFunction& radial,
+                const PointOptions& options, const std::string& kind, const std::string& face, std::vector<Strip>& out);
 
 }  // namespace flank::internal

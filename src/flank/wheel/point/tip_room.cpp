@@ -13,6 +13,7 @@ constexpr double kStepMm = 0.4;          ///< along the axis, at least
 constexpr double kGapPerMm = 0.08;       ///< of the axis: a direction is to leave so much more room higher up
 constexpr double kTrianglesOffMm = 0.1;  ///< more than triangles are off their faces
 constexpr int kDrops = 12;
+constexpr double kNotHeldMm = -10.0;  ///< room of a direction that no machine holds
 
 /// Beside the border of a face a footpoint has no side, and from behind a thin blade its far face looks away: the distance alone counts.
 /// A tool that enters something crosses its surface somewhere.
@@ -38,7 +39,8 @@ TipRoom::TipRoom(const FloorChannel& channel, const RadialFunction& radial, cons
       lift_mm_(tip_mm_ + kHeightShare * options.tolerance_mm + options.height_mm),
       enter_mm_(options.enter_share * options.tolerance_mm),
       length_(radial.axis_length()),
-      above_(length_ + 2.0 * radial.at(length_).r) {}
+      above_(length_ + 2.0 * radial.at(length_).r),
+      held_(options.held) {}
 
 std::optional<TipRoom::Rest> TipRoom::rest(const Vec3& p) const {
   Vec3 at = p;
@@ -88,6 +90,7 @@ double TipRoom::room(const Pose& pose, double up_to) const {
 }
 
 double TipRoom::rough_room(const Pose& pose, double least) const {
+  if (!held_.holds(pose.axis)) return kNotHeldMm;
   double best = kEnoughMm;
   for (double s = kStepMm; s <= above_;) {
     const double r = radius(s), wanted = std::min(kEnoughMm, kGapPerMm * s);

@@ -27,14 +27,13 @@ class TipRoom {
   [[nodiscard]] std::optional<Rest> rest(const Vec3& p) const;
   /// Whether the tip sphere alone enters no wall deeper than a pass may.
   [[nodiscard]] bool tip_is_free(const Vec3& center) const;
+  [[nodiscard]] const TiltCone& held() const { return held_; }
   /// How far the flank, and a shank as thick above it, are from walls and floor, mm, at least; < 0 inside one. Exact near zero.
   [[nodiscard]] double room(const Pose& pose) const { return room(pose, above_); }
   /// The same by triangles, less a gap that grows along the axis, up to `kEnoughMm`: what directions are chosen by. Ends early below
-  /// `least`.
+  /// `least`. A direction that is not held lacks more room than any other.
   [[nodiscard]] double rough_room(const Pose& pose, double least) const;
-  [[nodiscard]] bool is_free(const Pose& pose) const { return room(pose) >= -enter_mm_; }
-  /// The same without a shank.
-  [[nodiscard]] bool flank_is_free(const Pose& pose) const { return room(pose, length_) >= -enter_mm_; }
+  [[nodiscard]] bool is_free(const Pose& pose) const { return held_.holds(pose.axis) && room(pose) >= -enter_mm_; }
   static constexpr double kEnoughMm = 0.5;
 
  private:
@@ -43,6 +42,7 @@ class TipRoom {
   const FloorChannel& channel_;
   const RadialFunction& radial_;
   double tip_mm_, lift_mm_, enter_mm_, length_, above_;
+  TiltCone held_;
 };
 
 }  // namespace flank::internal

@@ -1,4 +1,4 @@
-#include "flank/pipeline/folder/operation_words.h"
+#include "flank/pipeline/program/operation_words.h"
 
 #include <fmt/format.h>
 
@@ -22,14 +22,14 @@ namespace {
 double positive(std::string_view value, const std::string& text) {
   const auto number = leading_number(value);
   if (!number || number->length != value.size() || !(number->value > 0.0))
-    refuse(text, "\"" + std::string(value) + "\" is no number > 0");
+    refuse(text, "\"" + std::string(value) + "\" must be a number > 0");
   return number->value;
 }
 
 int whole(std::string_view value, const std::string& text) {
   const double number = positive(value, text);
   if (number != std::floor(number) || number > 1e6)
-    refuse(text, "\"" + std::string(value) + "\" is no whole number from 1 to 1000000");
+    refuse(text, "\"" + std::string(value) + "\" must be a whole number from 1 to 1000000");
   return static_cast<int>(number);
 }
 
@@ -47,7 +47,7 @@ void set(std::string_view key, std::string_view value, const std::string& text, 
   else if (key == "feed")
     words.feed_mm_min = positive(value, text);
   else
-    refuse(text, "\"" + std::string(key) + "\" is none of the keys");
+    refuse(text, "\"" + std::string(key) + "\" is not a key");
 }
 
 }  // namespace
@@ -57,7 +57,7 @@ std::vector<OperationWords> parse_operations(const std::vector<std::string>& tex
   for (const std::string& text : texts) {
     const std::size_t colon = std::min(text.find(':'), text.size());
     const int number = whole(std::string_view(text).substr(0, colon), text);
-    if (number > static_cast<int>(count)) refuse(text, "there are " + std::to_string(count) + " operations");
+    if (number > static_cast<int>(count)) refuse(text, "the program has " + std::to_string(count) + " operations");
     std::string_view rest = std::string_view(text).substr(std::min(colon + 1, text.size()));
     do {
       const std::size_t comma = std::min(rest.find(','), rest.size());
@@ -78,6 +78,11 @@ std::string heading(const NcOperation& operation) {
   return text + ": ";
 }
 
+void add_under(const std::string& heading, const Acceptance& one, Acceptance& all) {
+  for (const Shortfall& reason : one.reasons) all.reasons.push_back({reason.figure, heading + reason.text});
+  for (const Shortfall& caution : one.cautions) all.cautions.push_back({caution.figure, heading + caution.text});
+}
+
 void require_operations(const std::string& file, const std::vector<NcProgram>& operations, std::size_t folders) {
   const auto operation = [](const NcProgram& p) { return p.header.operation.value_or(NcOperation{}); };
   const auto copies = static_cast<std::size_t>(operation(operations.front()).copies);
@@ -91,6 +96,30 @@ void require_operations(const std::string& file, const std::vector<NcProgram>& o
       throw InputError(fmt::format("{}: operation {} is copy {} of {}; expected copy {} of {}", file, k + 1, of.copy,
                                    of.copies, k % copies + 1, copies));
   }
+}
+
+std::vector<std::size_t> folders_of(const std::string& file, const std::vector<NcProgram>& operations,
+                                    std::size_t folders) {
+  std::vector<std::size_t> out;
+  for (std::size_t folder = 0; out.size() < operations.size(); ++folder) {
+    const NcOperation first = operations[out.size()].header.operation.value_or(NcOperation{});
+    for (int copy = 1; copy <= first.copies; ++copy) {
+      const std::size_t k = out.size();
+      const NcOperation of =
+          k < operations.size() ? operations[k].header.operation.value_or(NcOperation{}) : NcOperation{.copy = 0};
+      if (of.copy != copy || of.copies != first.copies)
+        throw InputError(
+            fmt::format("{}: operation {} is not copy {} of {}; expected all copies of an operation in a row", file,
+                        k + 1, copy, first.copies));
+      out.push_back(folder);
+    }
+  }
+  if (out.empty() || out.back() + 1 != folders)
+    throw InputError(
+        fmt::format("{}: has {} operations, with their copies {}; expected as many folders, in their order, "
+                    "and not {}",
+                    file, out.empty() ? 0 : out.back() + 1, out.size(), folders));
+  return out;
 }
 
 PostJob request_of(const PostJob& request, const std::string& folder, const OperationWords& words) {

@@ -1,0 +1,35 @@
+/// The roughing of a wheel, judged: what it cuts, and how much of the tool is in the blank.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "flank/judge.h"
+#include "flank/pipeline/folder/wheel_plan.h"
+#include "flank/results/acceptance.h"
+#include "flank/setup/setup.h"
+#include "flank/tool.h"
+
+namespace flank::internal {
+
+struct JudgedRoughing {
+  Tool tool;
+  VerifyReport cuts;  ///< of all copies, on all judged faces: none of them may be cut
+  StockReport stock;  ///< of one sector, in the whole blank: a copy meets no more material; kind "rough"
+  double most_engagement_deg = 180.0;
+};
+
+/// Of the step of the plan that roughs; none where none is done, or none is planned. Throws InputError for files of the folder that are
+/// missing, damaged or not those that the step wrote.
+[[nodiscard]] std::optional<JudgedRoughing> judge_roughing(const WheelPlan& plan, const Setup& setup);
+/// The same of other paths with the step's tool, as a program runs them: `sector` in the whole blank, `all` copies on the part.
+[[nodiscard]] std::optional<JudgedRoughing> judge_roughing(const WheelPlan& plan, const Setup& setup,
+                                                           const Path& sector, const Path& all);
+
+/// One line for people.
+[[nodiscard]] std::string roughing_text(const JudgedRoughing& roughing);
+
+/// Reasons against the wheel: steps that are not done, and what roughing cuts or engages.
+void accept_steps(const WheelPlan& plan, const std::optional<JudgedRoughing>& roughing, Acceptance& acceptance);
+
+}  // namespace flank::internal

@@ -1,0 +1,41 @@
+/// plan.json in the folder of a wheel (docs/schema/wheel.md), as those who judge, post and draw the folder need it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "flank/path.h"
+#include "flank/pipeline/folder/turned_copies.h"
+
+namespace flank::internal {
+
+struct WheelStep {
+  std::string id, kind;  ///< "10", "rough"
+  std::string folder;    ///< of its result, beside the working folder
+  int copies = 1;        ///< its path and the turned ones
+  bool done = false;
+  std::string problem;  ///< why it is not done
+};
+
+struct WheelPlan {
+  CopyAxis axis;
+  std::optional<Vec3> up;                           ///< unit vector along the axis: to the spindle; none in older files
+  int sectors = 1;                                  ///< in a whole turn
+  bool whole = true;                                ///< the part has all of them
+  std::string blank;                                ///< file of the blank, beside the working folder; empty: none
+  double most_engagement_deg = 180.0;               ///< while roughing; 180: slots are allowed
+  std::vector<WheelStep> steps;                     ///< in the order of machining
+  [[nodiscard]] const WheelStep* roughing() const;  ///< that is done; null: none
+};
+
+/// None where the folder has no plan.json. Throws InputError, naming file and key, for one that cannot be used.
+[[nodiscard]] std::optional<WheelPlan> read_wheel_plan(const std::string& folder);
+
+/// Throws InputError where the path is not that of the finishing steps and their copies: `file` is for the message.
+void require_steps_make(const WheelPlan& plan, const Path& path, const std::string& file);
+
+/// Every strip as often as there are copies, a sector after the other, numbered anew.
+[[nodiscard]] Path all_copies(const Path& sector, const WheelPlan& plan, int copies);
+
+}  // namespace flank::internal

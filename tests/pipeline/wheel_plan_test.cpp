@@ -1,0 +1,133 @@
+// A wheel's folder: its plan, the copies of its operations, and the verdict on its roughing.
+#include "flank/pipeline/folder/wheel_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "flank/base/atomic_file.h"
+#include "flank/error.h"
+#include "flank/path_file.h"
+#include "flank/pipeline/folder/judge_roughing.h"
+#include "flank/pipeline/program/operation_words.h"
+#include "temporary_folder.h"
+
+namespace flank::internal {
+namespace {
+
+constexpr const char* kPlan = R"({"schema": "openflank/plan/1",
+  "axis": {"point_mm": [1, 0, 0], "direction": [0, 0, 2]}, "copies": 3, "sectors": 3, "whole": true,
+  "most_engagement_deg": 120, "blank": {"file": "blank.stl", "from": "turned"},
+  "operations": [
+    {"id": "10", "kind": "rough", "folder": "ops/10-rough", "copies": 3, "done": true},
+    {"id": "20", "kind": "side", "folder": "ops/20-side", "copies": 3, "done": true},
+    {"id": "50", "kind": "edge", "folder": "ops/50-edge", "copies": 3, "done": false, "problem": "no room"}]})";
+
+class WheelPlanFile : public TemporaryFolder {
+ protected:
+  WheelPlanFile() : TemporaryFolder("wheel_plan") {}
+  void write_plan(const std::string& text) const { write_file((root_ / "plan.json").string(), text); }
+  [[nodiscard]] std::string complaint(const std::string& from, const std::string& to) const {
+    std::string text = kPlan;
+    text.replace(text.find(from), from.size(), to);
+    write_plan(text);
+    try {
+      (void)read_wheel_plan(root_.string());
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "accepted";
+  }
+};
+
+Path one_pass() {
+  return {{{1, "flank", "F1", {{Vec3(5.0, 0.0, 0.0), Vec3::UnitZ()}, {Vec3(6.0, 0.0, 1.0), Vec3::UnitX()}}}}};
+}
+
+TEST_F(WheelPlanFile, SaysWhatIsMachinedAndHowOften) {
+  EXPECT_FALSE(read_wheel_plan(root_.string()));
+  write_plan(kPlan);
+  const WheelPlan plan = read_wheel_plan(root_.string()).value();
+  EXPECT_EQ(plan.axis.direction, Vec3::UnitZ());
+  EXPECT_FALSE(plan.up);
+  EXPECT_EQ(plan.sectors, 3);
+  EXPECT_EQ(plan.most_engagement_deg, 120.0);
+  EXPECT_EQ(plan.blank, (root_ / "blank.stl").string());
+  ASSERT_EQ(plan.steps.size(), 3U);
+  ASSERT_NE(plan.roughing(), nullptr);
+  EXPECT_EQ(plan.roughing()->folder, (root_ / "ops/10-rough").string());
+  EXPECT_FALSE(plan.steps[2].done);
+  EXPECT_EQ(plan.steps[2].problem, "no room");
+  std::string turned_over = kPlan;
+  turned_over.insert(1, "\"up\": [0, 0, -3], ");
+  write_plan(turned_over);
+  EXPECT_EQ(read_wheel_plan(root_.string())->up, Vec3(0.0, 0.0, -1.0));
+}
+
+TEST_F(WheelPlanFile, WhatCannotBeUsedIsRefusedByName) {
+  EXPECT_NE(complaint("120", "-1").find("most_engagement_deg"), std::string::npos);
+  EXPECT_NE(complaint("ops/10-rough", "../other").find("operations[0].folder"), std::string::npos);
+  EXPECT_NE(complaint("blank.stl", "/etc/passwd").find("blank.file"), std::string::npos);
+  EXPECT_NE(complaint("\"done\": true", "\"done\": 1").find("operations[0].done"), std::string::npos);
+  EXPECT_NE(complaint("[0, 0, 2]", "[0, 0, 0]").find("axis.direction"), std::string::npos);
+  EXPECT_NE(complaint("\"sectors\": 3", "\"sectors\": 0").find("sectors"), std::string::npos);
+}
+
+TEST_F(WheelPlanFile, CopiesAreTurnedByThePitch) {
+  write_plan(kPlan);
+  WheelPlan plan = read_wheel_plan(root_.string()).value();
+  const Path all = all_copies(one_pass(), plan, 3);
+  ASSERT_EQ(all.strips.size(), 3U);
+  EXPECT_EQ(all.strips[0].poses[0].tip, one_pass().strips[0].poses[0].tip);
+  const double angle = 2.0 * std::numbers::pi / 3.0;
+  EXPECT_NEAR((all.strips[1].poses[0].tip - Vec3(1.0 + 4.0 * std::cos(angle), 4.0 * std::sin(angle), 0.0)).norm(), 0.0,
+              1e-12);
+  EXPECT_EQ(all.strips[2].id, 3);
+  plan.whole = false;
+  EXPECT_EQ(all_copies(one_pass(), plan, 2).strips.size(), 2U) << "as many as there are, of a piece too";
+}
+
+TEST_F(WheelPlanFile, APathThatIsNotThatOfTheOperationsIsRefused) {
+  write_plan(kPlan);
+  const WheelPlan plan = read_wheel_plan(root_.string()).value();
+  std::filesystem::create_directories(root_ / "ops/20-side");
+  write_path(one_pass(), (root_ / "ops/20-side/path.json").string());
+  Path whole = all_copies(one_pass(), plan, 3);
+  EXPECT_NO_THROW(require_steps_make(plan, whole, "path.json"));
+  whole.strips[1].poses[1].tip.x() += 1e-3;
+  EXPECT_THROW(require_steps_make(plan, whole, "path.json"), InputError);
+  whole = all_copies(one_pass(), plan, 3);
+  whole.strips.pop_back();
+  EXPECT_THROW(require_steps_make(plan, whole, "path.json"), InputError);
+}
+
+TEST(JudgedRoughing, AnEngagementAboveTheLimitIsAReason) {
+  JudgedRoughing roughing;
+  roughing.tool.radial = RadialFunction(ToolFamily::kCylinder, 12.0, Eigen::VectorXd::Constant(1, 2.0));
+  roughing.cuts.verdict = Verdict::kPass, roughing.cuts.tolerance_mm = 0.05;
+  roughing.stock.kinds = {{.kind = "rough", .engagement_deg = 130.0, .strip = 4}};
+  for (const double most : {180.0, 100.0}) {
+    roughing.most_engagement_deg = most;
+    Acceptance acceptance;
+    accept_steps({}, roughing, acceptance);
+    EXPECT_EQ(acceptance.pass(), most > 130.0);
+    if (acceptance.pass()) continue;
+    EXPECT_NE(acceptance.reasons.front().text.find("roughing: stock simulation"), std::string::npos);
+  }
+}
+
+TEST(OperationFolders, EachHasAllOfItsCopiesInARow) {
+  const auto program = [](int copy, int copies) {
+    NcProgram one;
+    one.header.operation = NcOperation{.copy = copy, .copies = copies};
+    return one;
+  };
+  const std::vector<NcProgram> all{program(1, 2), program(2, 2), program(1, 1)};
+  EXPECT_EQ(folders_of("p.nc", all, 2), (std::vector<std::size_t>{0, 0, 1}));
+  EXPECT_THROW((void)folders_of("p.nc", all, 3), InputError);
+  EXPECT_THROW((void)folders_of("p.nc", {program(1, 2), program(1, 1)}, 2), InputError);
+  EXPECT_THROW((void)folders_of("p.nc", {program(1, 2)}, 1), InputError);
+}
+
+}  // namespace
+}  // namespace flank::internal
