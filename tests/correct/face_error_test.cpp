@@ -54,7 +54,8 @@ std::vector<Vec3> scanned(const Face& face, int count, const Scan& scan, std::ui
 class FaceErrorTest : public testing::Test {
  protected:
   [[nodiscard]] FaceError of(const std::vector<Vec3>& points, bool fit_datum) const {
-    return face_error(*target_, face_, points, {.fit_datum = fit_datum, .limit_mm = 1.0, .file = "points.csv"});
+    return face_error(*target_, face_, points,
+                      {.fit_datum = fit_datum, .limit_mm = 1.0, .planned_mm = {}, .file = "points.csv"});
   }
   [[nodiscard]] std::string refusal(const std::vector<Vec3>& points) const {
     try {
@@ -77,6 +78,20 @@ TEST_F(FaceErrorTest, IsWhatTheCutLeft) {
       for (const double v : {0.1, 0.5, 0.9}) worst = std::max(worst, std::abs(error.at(u, v) - deflection(u, v)));
     EXPECT_LT(worst, 1.5 * 0.002) << count;
   }
+}
+
+/// That the plan leaves material is no error of the machine.
+TEST_F(FaceErrorTest, IsWhatTheMachineAddsToThePlan) {
+  const auto planned = [&](const Vec3& p) { return 0.05 * std::sin(0.2 * p.x()); };
+  std::vector<Vec3> points = scanned(face_, 2000, {.noise = 0.0}, 9);
+  for (Vec3& p : points) {
+    const Footpoint foot = target_->closest(p);
+    p += planned(foot.point) * foot.normal;
+  }
+  const FaceError error = face_error(
+      *target_, face_, points, {.fit_datum = false, .limit_mm = 1.0, .planned_mm = planned, .file = "points.csv"});
+  EXPECT_NEAR(error.at(0.5, 0.5), deflection(0.5, 0.5), 5e-4);
+  EXPECT_GT(error.planned_rms_mm, 0.03);
 }
 
 TEST_F(FaceErrorTest, OfAMovedFaceIsNoneAfterTheBestFit) {
@@ -121,9 +136,26 @@ TEST_F(FaceErrorTest, MirroredTakesMostOfTheErrorAway) {
   EXPECT_LT(std::sqrt(after), 0.08 * std::sqrt(before));
 }
 
+/// Two control points across have no room for an error that is bent.
+TEST(MirroredFace, OfARuledFaceHoldsTheError) {
+  Face face;
+  face.id = "F1";
+  BSplineSurface& s = face.surface;
+  s.degree_u = s.degree_v = 1, s.count_u = s.count_v = 2;
+  s.knots_u = s.knots_v = {0.0, 0.0, 1.0, 1.0};
+  s.poles = {{0.0, 0.0, 0.0}, {0.0, 25.0, 3.0}, {40.0, 0.0, 5.0}, {40.0, 25.0, 0.0}};
+  const std::unique_ptr<Target> target = make_target({face}, +1);
+  const FaceError error = face_error(*target, face, scanned(face, 2000, {}, 8),
+                                     {.fit_datum = false, .limit_mm = 1.0, .planned_mm = {}, .file = "points.csv"});
+  const Face aimed = mirrored_face(face, error, +1);
+  for (const double u : {0.1, 0.35, 0.5, 0.8})
+    for (const double v : {0.1, 0.35, 0.5, 0.8})
+      EXPECT_NEAR(target->closest(aimed.surface.value(u, v)).distance, -deflection(u, v), 5e-4) << u << " " << v;
+}
+
 TEST_F(FaceErrorTest, IsHeldWithinTheLimit) {
   const FaceError error = face_error(*target_, face_, scanned(face_, 1000, {}, 6),
-                                     {.fit_datum = false, .limit_mm = 0.01, .file = "points.csv"});
+                                     {.fit_datum = false, .limit_mm = 0.01, .planned_mm = {}, .file = "points.csv"});
   EXPECT_TRUE(error.limited);
   EXPECT_LE(std::abs(error.at(0.5, 0.99)), 0.01);
 }

@@ -43,6 +43,7 @@ Json error_entry(const FaceError& error) {
           {"rms_as_measured_mm", error.rms_before_mm},
           {"rms_after_best_fit_mm", error.rms_after_mm},
           {"taken_away_by_best_fit", taken_away(error)},
+          {"planned_rms_mm", error.planned_rms_mm},
           {"noise_mm", error.noise_mm},
           {"smooth_rms_mm", error.smooth_rms_mm},
           {"smooth_largest_mm", error.smooth_largest_mm},
@@ -75,6 +76,8 @@ std::string ground_text(const GroundTool& ground) {
 std::string error_text(const FaceError& error) {
   std::string text = fmt::format("Face as cut: {} points on the face, {} off it; noise {:.4f} mm\n",
                                  error.points.size(), error.beside, error.noise_mm);
+  text += fmt::format("  the plan itself leaves {:.4f} mm rms there; what follows is what the machine adds to it\n",
+                      error.planned_rms_mm);
   text +=
       fmt::format("  error {:.4f} mm rms as measured, {:.4f} after a best fit of the datum, which removes {:.1f} %\n",
                   error.rms_before_mm, error.rms_after_mm, 100.0 * taken_away(error));

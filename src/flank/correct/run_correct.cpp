@@ -2,16 +2,21 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 #include <variant>
 
 #include "flank/base/atomic_file.h"
 #include "flank/base/kept/read_files.h"
+#include "flank/correct/aimed_result.h"
 #include "flank/correct/measure/read_points.h"
+#include "flank/correct/motion/path_motions.h"
+#include "flank/envelope/swept_estimate.h"
 #include "flank/error.h"
 #include "flank/io/cad/write_step.h"
 #include "flank/io/text/json_input.h"
 #include "flank/job/correct_fields.h"
 #include "flank/job/input_files.h"
+#include "flank/manifest/kept_inputs.h"
 #include "flank/manifest/result_folder.h"
 #include "flank/path_file.h"
 #include "flank/pipeline/folder/folder_job.h"
@@ -85,8 +90,8 @@ std::string guide_text(const Strip& strip, double length) {
   return text;
 }
 
-/// The job again, with a given tool and, where it has one strip, from where that was.
-void plan_again(const Earlier& earlier, const std::string& tool_file, const std::string& output, PlanJob& job) {
+/// The job again, with a given tool.
+void plan_again(const Earlier& earlier, const std::string& tool_file, PlanJob& job) {
   with_plan(job, [&](auto& plan) {
     plan.tool.spec = tool_file;
     plan.tool.axis_length_mm.reset();
@@ -97,8 +102,13 @@ void plan_again(const Earlier& earlier, const std::string& tool_file, const std:
   fit->guide.reset();
   fit->stiffness_curve = false;
   fit->strips = static_cast<int>(earlier.path.strips.size());
+}
+
+/// Where the result has one strip, the job begins where that was.
+void start_from(const Earlier& earlier, const std::string& output, PlanJob& job) {
+  auto* fit = std::get_if<FitJob>(&job);
   const Strip& first = earlier.path.strips.front();
-  if (fit->strips != 1 || first.poses.size() < 2) return;
+  if (fit == nullptr || fit->strips != 1 || first.poses.size() < 2) return;
   fit->guide = in(output, "guide.txt");
   write_file(*fit->guide, guide_text(first, earlier.tool.radial.axis_length()));
 }
@@ -128,7 +138,8 @@ void as_ground(Earlier& earlier, const std::string& output, const Progress& prog
   make_folder(output);
   write_tool(tool, in(output, "ground.json"));
   PlanJob job = earlier.job;
-  plan_again(earlier, in(output, "ground.json"), output, job);
+  plan_again(earlier, in(output, "ground.json"), job);
+  start_from(earlier, output, job);
   correction.result = run_plan(job, progress.part(0.1, 1.0));
 }
 
@@ -154,8 +165,64 @@ void write_mirrored(const Setup& setup, int face, const FaceError& error, const 
   write_step(file, faces);
 }
 
+/// The motions of the old path, and what they leave at a point.
+struct Planned {
+  std::vector<RuledMotion> motions;
+  SweptEstimate swept;
+  [[nodiscard]] double left_at(const Vec3& p) const { return swept.refine(p, swept.nearest(p)).f; }
+};
+
+Planned planned(const Earlier& earlier, double tolerance_mm) {
+  constexpr double kNear = 0.02;  // of the tolerance: the poses themselves are joined by chords that are farther off
+  constexpr int kDenser = 4;      // poses of its table, for each control point of a rail
+  const RadialFunction& radial = earlier.tool.radial;
+  std::vector<RuledMotion> motions = motions_through(earlier.path, radial.axis_length(), kNear * tolerance_mm);
+  const int poses = kDenser * motions.front().tip.count();
+  return {motions, SweptEstimate(motions, radial, poses)};
+}
+
+FaceError measured_error(const Setup& setup, const TargetGroup& group, const CorrectJob& job, const Planned& old) {
+  FaceErrorOptions options;
+  options.fit_datum = job.datum == "fit";
+  options.limit_mm = job.limit_mm.value_or(kLimitTolerances * setup.tolerance_mm);
+  options.planned_mm = [&old](const Vec3& p) { return old.left_at(p); };
+  options.file = *job.measured;
+  return face_error(*group.target, setup.part.faces[static_cast<std::size_t>(group.indices.front())],
+                    read_measured_points(*job.measured), options);
+}
+
+/// Motions that leave less where the machine leaves more.
+AimedMotions aimed_against(const FaceError& error, const Setup& setup, const TargetGroup& group, const Earlier& earlier,
+                           std::vector<RuledMotion> motions) {
+  AimProblem problem;
+  problem.target = group.target.get();
+  problem.motions = std::move(motions);
+  problem.tool = earlier.tool.radial;
+  problem.tolerance_mm = setup.tolerance_mm;
+  const BSplineSurface& s = setup.part.faces[static_cast<std::size_t>(group.indices.front())].surface;
+  problem.less_mm = [&](const Vec3& p) {
+    const Footpoint foot = problem.target->closest(p);
+    return error.at((foot.u - s.u_first()) / (s.u_last() - s.u_first()),
+                    (foot.v - s.v_first()) / (s.v_last() - s.v_first()));
+  };
+  return aimed_motions(problem);
+}
+
+/// The job on the part with the mirrored face, with the old tool.
+PlanJob mirrored_job(const Earlier& earlier, const Setup& setup, const std::string& folder, const std::string& file) {
+  PlanJob job = earlier.job;
+  with_plan(job, [&](auto& plan) {
+    plan.part.file = file;
+    plan.part.unit.reset();
+    plan.part.side = 1;
+    plan.obstacles.check_faces.reset();
+    plan.obstacles.ignore_faces = faces_not_checked(setup);
+  });
+  plan_again(earlier, in(folder, "tool.json"), job);
+  return job;
+}
+
 void as_cut(Earlier& earlier, const std::string& output, const Progress& progress, Correction& correction) {
-  const std::string& file = *correction.job.measured;
   std::vector<std::string> notes;
   const Setup setup = read_nominal(earlier.job, notes);
   correction.tolerance_mm = setup.tolerance_mm;
@@ -164,39 +231,46 @@ void as_cut(Earlier& earlier, const std::string& output, const Progress& progres
     throw UsageError("measured", correction.job.folder,
                      "faces of the part could not be read, so it cannot be written with a mirrored one");
   const std::vector<TargetGroup> groups = make_targets(setup);
-  FaceErrorOptions options;
-  options.fit_datum = correction.job.datum == "fit";
-  options.limit_mm = correction.job.limit_mm.value_or(kLimitTolerances * setup.tolerance_mm);
-  options.file = file;
-  correction.error = face_error(*groups.front().target, setup.part.faces[static_cast<std::size_t>(face)],
-                                read_measured_points(file), options);
+  const Planned old = planned(earlier, setup.tolerance_mm);
+  progress.step("measure", 0.1);
+  correction.error = measured_error(setup, groups.front(), correction.job, old);
   make_folder(output);
   const std::string mirrored = in(output, "mirrored.step");
   write_mirrored(setup, face, *correction.error, mirrored);
-  PlanJob job = earlier.job;
-  with_plan(job, [&](auto& plan) {
-    plan.part.file = mirrored;
-    plan.part.unit.reset();
-    plan.part.side = 1;
-  });
-  plan_again(earlier, in(correction.job.folder, "tool.json"), output, job);
-  correction.result = run_plan(job, progress.part(0.1, 0.95));
+  progress.step("correct", 0.3);
+  AimedMotions aimed = aimed_against(*correction.error, setup, groups.front(), earlier, old.motions);
+  progress.step("verify", 0.6);
+  correction.result =
+      aimed_result(mirrored_job(earlier, setup, correction.job.folder, mirrored), earlier.tool, std::move(aimed));
   correction.other = judge(setup, earlier.job, correction.result.tool, correction.result.path);
 }
 
 }  // namespace
+
+std::optional<std::string> faces_not_checked(const Setup& setup) {
+  const auto is_among = [](const std::vector<int>& faces, int k) {
+    return std::find(faces.begin(), faces.end(), k) != faces.end();
+  };
+  std::string text;
+  for (int k = 0; k < setup.part.face_count(); ++k)
+    if (!is_among(setup.targets, k) && !is_among(setup.checks, k))
+      text += (text.empty() ? "F" : ",F") + std::to_string(k + 1);
+  return text.empty() ? std::nullopt : std::optional(text);
+}
 
 Correction run_correct(const CorrectJob& job, const std::string& output, const Progress& progress) {
   check_fields(job);
   if (job.profile.has_value() == job.measured.has_value())
     throw UsageError("profile", "", "give a profile of the tool, or measured points of the face");
   if (is_same_file(job.folder, output)) throw UsageError("folder", output, "give another folder for the new result");
-  const ReadFiles inputs = read_files(job);
+  ReadFiles inputs = read_files(job);
   const Unwritten unwritten(inputs);
-  Correction correction;
-  correction.job = job;
   progress.step("read", 0.0);
   Earlier earlier = read_earlier(job.folder);
+  inputs.add(read_files(earlier.job));
+  require_inputs_kept(inputs, output, {"ground.json", "mirrored.step", "guide.txt", "correct.json", "correct.txt"});
+  Correction correction;
+  correction.job = job;
   if (job.profile)
     as_ground(earlier, output, progress, correction);
   else

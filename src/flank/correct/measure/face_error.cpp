@@ -20,6 +20,7 @@ constexpr double kLeastSeen = 0.9;    ///< share of the face's area that must ha
 constexpr double kOutlier = 5.0;      ///< standard deviations
 constexpr double kFlat = 1e-4;        ///< mm; errors below it are all of one weight
 constexpr int kMoves = 16, kRounds = 5;
+constexpr int kMirrorDegree = 3;  ///< at least: the error's spline has it
 constexpr std::array<int, 6> kCounts = {4, 5, 7, 10, 14, 20};
 
 [[noreturn]] void refuse(const FaceErrorOptions& options, const std::string& why) {
@@ -35,20 +36,31 @@ double typical(std::vector<double> values) {
   return 1.4826 * *middle;
 }
 
+double planned_rms(const Target& target, const std::vector<MeasuredPoint>& points, const FaceErrorOptions& options) {
+  if (!options.planned_mm || points.empty()) return 0.0;
+  double sum = 0.0;
+  for (const MeasuredPoint& point : points) sum += std::pow(options.planned_mm(target.closest(point.point).point), 2);
+  return std::sqrt(sum / static_cast<double>(points.size()));
+}
+
 double rms(const std::vector<MeasuredPoint>& points) {
   double sum = 0.0;
   for (const MeasuredPoint& point : points) sum += point.error_mm * point.error_mm;
   return points.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(points.size()));
 }
 
-std::vector<Footpoint> footpoints(const Target& target, const std::vector<Vec3>& points, const RigidMove& move) {
+bool on_face(const Footpoint& foot) { return foot.patch >= 0 && foot.location == Location::kInside; }
+
+/// Nearest points of the face; their distances are those beyond what the plan leaves.
+std::vector<Footpoint> footpoints(const Target& target, const std::vector<Vec3>& points, const RigidMove& move,
+                                  const FaceErrorOptions& options) {
   std::vector<Footpoint> feet(points.size());
-  parallel_for(points.size(),
-               [&](std::size_t k) { feet[k] = target.closest_within(move.of(points[k]), kFar * target.diagonal()); });
+  parallel_for(points.size(), [&](std::size_t k) {
+    feet[k] = target.closest_within(move.of(points[k]), kFar * target.diagonal());
+    if (options.planned_mm && on_face(feet[k])) feet[k].distance -= options.planned_mm(feet[k].point);
+  });
   return feet;
 }
-
-bool on_face(const Footpoint& foot) { return foot.patch >= 0 && foot.location == Location::kInside; }
 
 Eigen::Matrix3d turn_of(const Vec3& w) {
   const double angle = w.norm();
@@ -172,6 +184,26 @@ void smooth(FaceError& error) {
   }
 }
 
+/// Knots of a space of a degree (at least the old one) that holds what the old knots hold, with spans of at most an eighth.
+std::vector<double> finer_knots(const std::vector<double>& knots, int degree, int finer) {
+  constexpr double kSpans = 8.0;
+  const double longest = (knots.back() - knots.front()) / kSpans;
+  std::vector<double> out;
+  for (std::size_t k = 0; k < knots.size();) {
+    std::size_t next = k;
+    while (next < knots.size() && knots[next] == knots[k]) ++next;
+    const int times = static_cast<int>(next - k) + finer - degree;
+    out.insert(out.end(), static_cast<std::size_t>(times), knots[k]);
+    if (next < knots.size()) {
+      const double span = knots[next] - knots[k];
+      const int pieces = static_cast<int>(std::ceil(span / longest - 1e-9));
+      for (int i = 1; i < pieces; ++i) out.push_back(knots[k] + span * i / pieces);
+    }
+    k = next;
+  }
+  return out;
+}
+
 void require_this_face(std::size_t on, std::size_t all, const FaceErrorOptions& options) {
   if (on < kFewest && all - on <= all / 2)
     refuse(options,
@@ -198,11 +230,11 @@ FaceError face_error(const Target& target, const Face& face, const std::vector<V
   error.move.middle = target.box().center();
   if (points.size() < kFewest)
     refuse(options, std::to_string(points.size()) + " points; at least " + std::to_string(kFewest) + " are required");
-  std::vector<Footpoint> feet = footpoints(target, points, error.move);
+  std::vector<Footpoint> feet = footpoints(target, points, error.move, options);
   error.rms_before_mm = rms(measured(face, points, feet, error.move));
   for (int k = 0; options.fit_datum && k < kMoves; ++k) {
     improve(points, feet, 0.5 * target.diagonal(), error.move);
-    feet = footpoints(target, points, error.move);
+    feet = footpoints(target, points, error.move, options);
   }
   error.points = measured(face, points, feet, error.move);
   require_this_face(error.points.size(), points.size(), options);
@@ -218,26 +250,28 @@ FaceError face_error(const Target& target, const Face& face, const std::vector<V
     error.smooth_largest_mm = std::max(error.smooth_largest_mm, std::abs(raw));
   }
   error.smooth_rms_mm = std::sqrt(square / static_cast<double>(error.points.size()));
+  error.planned_rms_mm = planned_rms(target, error.points, options);
   return error;
 }
 
 Face mirrored_face(const Face& face, const FaceError& error, int side) {
-  // The error as a displacement of the surface's own poles: it gets no other knots, and stays in its other parts what it was.
+  // The sum of face and error in a space that holds both: a ruled face, or one of few control points, has none for the error.
+  const BSplineSurface& old = face.surface;
   Face mirrored = face;
   BSplineSurface& s = mirrored.surface;
-  const std::vector<double> sites_u = greville_sites(s.knots_u, s.degree_u),
-                            sites_v = greville_sites(s.knots_v, s.degree_v);
-  std::vector<Vec3> moves;
-  for (const double u : sites_u)
-    for (const double v : sites_v) {
-      const SurfaceJet jet = face.surface.jet(u, v);
+  const int degree_u = std::max(old.degree_u, kMirrorDegree), degree_v = std::max(old.degree_v, kMirrorDegree);
+  const std::vector<double> knots_u = finer_knots(old.knots_u, old.degree_u, degree_u),
+                            knots_v = finer_knots(old.knots_v, old.degree_v, degree_v);
+  std::vector<Vec3> points;
+  for (const double u : greville_sites(knots_u, degree_u))
+    for (const double v : greville_sites(knots_v, degree_v)) {
+      const SurfaceJet jet = old.jet(u, v);
       const Vec3 normal = side * jet.du.cross(jet.dv);
-      const double e =
-          error.at((u - s.u_first()) / (s.u_last() - s.u_first()), (v - s.v_first()) / (s.v_last() - s.v_first()));
-      moves.push_back(normal.norm() > 0.0 ? Vec3(-e * normal.normalized()) : Vec3(Vec3::Zero()));
+      const double e = error.at((u - old.u_first()) / (old.u_last() - old.u_first()),
+                                (v - old.v_first()) / (old.v_last() - old.v_first()));
+      points.push_back(normal.norm() > 0.0 ? Vec3(jet.p - e * normal.normalized()) : jet.p);
     }
-  const BSplineSurface move = interpolate_grid(moves, s.knots_u, s.knots_v, s.degree_u, s.degree_v);
-  for (std::size_t k = 0; k < s.poles.size(); ++k) s.poles[k] += move.poles[k];
+  s = interpolate_grid(points, knots_u, knots_v, degree_u, degree_v);
   return mirrored;
 }
 

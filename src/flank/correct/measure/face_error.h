@@ -1,6 +1,7 @@
-/// What a face as cut is off: from measured points to a smooth error over the face.
+/// What a face as cut is off from what was planned: from measured points to a smooth error over the face.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,9 @@ struct RigidMove {
 struct FaceErrorOptions {
   bool fit_datum = true;  ///< the points are moved onto the face as well as six degrees of freedom do it
   double limit_mm = 1.0;  ///< an error beyond it is taken as this large
-  std::string file;       ///< for messages
+  /// What the plan leaves at a point of the face, mm: no error of the machine. Called from several threads at once. Empty: nothing.
+  std::function<double(const Vec3&)> planned_mm;
+  std::string file;  ///< for messages
 };
 
 /// A measured point on the face.
@@ -28,7 +31,7 @@ struct MeasuredPoint {
   int index = 0;            ///< of the point in the file
   Vec3 point;               ///< where it is taken to be
   double u = 0.0, v = 0.0;  ///< of its nearest point, from 0 to 1 over the face's domain
-  double error_mm = 0.0;    ///< along the normal; positive: material is left
+  double error_mm = 0.0;    ///< along the normal, beyond what the plan leaves; positive: material is left
 };
 
 struct FaceError {
@@ -37,6 +40,7 @@ struct FaceError {
   std::vector<int> outliers;                            ///< indices of points that do not, ascending
   int beside = 0;                                       ///< points that lie beside the face
   double rms_before_mm = 0.0, rms_after_mm = 0.0;       ///< of the error: as measured, after the move
+  double planned_rms_mm = 0.0;                          ///< of what the plan leaves at the points that count
   double noise_mm = 0.0;                                ///< of the points, standard deviation, estimated
   double smooth_rms_mm = 0.0, smooth_largest_mm = 0.0;  ///< of the smooth error
   bool limited = false;                                 ///< the smooth error is beyond the limit somewhere
