@@ -52,6 +52,7 @@ Json face_entry(const Redesign& redesign, std::size_t k) {
           {"rms", face.rms_mm},
           {"highest", face.highest_mm},
           {"lowest", face.lowest_mm},
+          {"border_moved", k < redesign.moved_mm.size() ? Json(redesign.moved_mm[k]) : Json(nullptr)},
           {"border_gap", k < redesign.gap_mm.size() ? Json(redesign.gap_mm[k]) : Json(nullptr)},
           {"surface_error", redesign.surface_error_mm[k]},
           {"thickness", distance_entry(face.thickness)},
@@ -71,8 +72,11 @@ std::string face_text(const Redesign& redesign, std::size_t k) {
       fmt::format("  {}: the new surface is {:.4f} mm rms off, {:.4f} mm outside and {:.4f} mm inside at most\n",
                   face.id, face.rms_mm, face.highest_mm, -face.lowest_mm);
   if (k < redesign.gap_mm.size())
-    text += fmt::format("    border    up to {:.4f} mm off the neighbouring faces, which stay as they are\n",
-                        redesign.gap_mm[k]);
+    text += fmt::format(
+        "    border    moved by up to {:.4f} mm along the neighbouring faces; up to {:.2g} mm off those that do not "
+        "meet "
+        "the new face\n",
+        redesign.moved_mm[k], redesign.gap_mm[k]);
   text += distance_line("thickness", face.thickness) + distance_line("gap", face.gap);
   text += "    height %   rms mm  largest  thickest before/after   LE radius, kink before/after   TE radius, kink\n";
   for (const Section& s : face.sections)

@@ -28,6 +28,7 @@ struct Redesign {
   std::vector<FaceTables> faces;
   std::vector<std::string> new_ids;      ///< of the faces in redesigned.step
   std::vector<double> gap_mm;            ///< of each: its borders as the neighbours have them, from the new surface
+  std::vector<double> moved_mm;          ///< of each: its new borders, from the old ones
   std::vector<double> surface_error_mm;  ///< of each: spline from exact envelope
   double largest_c = 0.0;
   std::string not_joined;  ///< why there is no redesigned.step; empty where there is one

@@ -16,6 +16,7 @@
 #include "flank/io/text/json_input.h"
 #include "flank/job/input_files.h"
 #include "flank/job/redesign_fields.h"
+#include "flank/manifest/kept_inputs.h"
 #include "flank/pipeline/finish.h"
 #include "flank/pipeline/folder/judge_job.h"
 #include "flank/pipeline/run_fit.h"
@@ -233,7 +234,7 @@ void add_result(const Setup& setup, const FitJob& job, const Search& search, con
   std::vector<StripSurface> surfaces = add_strips(setup.tolerance_mm, search.groups, result);
   judge_result(setup, scene, std::move(surfaces), result, watch);
   result.notes.emplace_back(
-      "a redesign: the verdict is about the face as it was, which this tool and motion leave on purpose");
+      "the verdict compares with the face as it was; this tool and motion machine the redesigned one on purpose");
 }
 
 /// The new faces into the part; the texts of the files.
@@ -254,6 +255,7 @@ void join(const Setup& setup, const std::vector<ChangedFace>& changed, Redesign&
   if (replaced.why.empty()) {
     out.step = std::move(replaced.step);
     out.gap_mm = std::move(replaced.gap_mm);
+    out.moved_mm = std::move(replaced.moved_mm);
     for (const Face& face : replaced.faces) out.new_ids.push_back(face.id);
     alone = std::move(replaced.faces);
   }
@@ -333,6 +335,9 @@ Redesign run_redesign(const RedesignJob& job, const std::string& output, const P
   if (job.weight) (void)parse_weights(*job.weight);
   const ReadFiles inputs = read_files(job);
   const Unwritten unwritten(inputs);
+  require_inputs_kept(
+      inputs, output,
+      {"redesigned.step", "face.step", "guide.txt", "deviation.csv", "sections.csv", "redesign.json", "redesign.txt"});
   Redesign out;
   out.job = job;
   FitJob fit = fit_job(job);

@@ -74,7 +74,7 @@ TEST_F(AstrayBorder, AControlPointInsideASurfaceThatIsElsewhereIsTold) {
   ASSERT_TRUE(std::regex_search(text_, found, rows));
   const std::vector<std::string> notes = notes_of(moved(found[1], 40.0));
   ASSERT_EQ(notes.size(), 1U);
-  EXPECT_NE(notes.front().find("control point 3, 4 of its surface is"), std::string::npos) << notes.front();
+  EXPECT_NE(notes.front().find("control point 3, 4 of its surface lies "), std::string::npos) << notes.front();
 }
 
 std::string content_of(const fs::path& file) {
@@ -110,6 +110,14 @@ TEST_F(AstrayEntry, ACurveInParametersThatIsElsewhereIsTold) {
   EXPECT_TRUE(says(changed(blade, "108.0080124,0.01176649239,", "108.0080124,15           ,"), parts));
 }
 
+// A curve that runs there and back on itself is nowhere off the other one.
+TEST_F(AstrayEntry, ACurveInParametersThatRunsThereAndBackIsTold) {
+  FLANK_REAL_PART(blade, "zoo/asitus_blade.igs");
+  EXPECT_TRUE(
+      says(changed(blade, "128.3715312,157.8285904,0.0,126.8316914,", "128.3715312,157.8285904,0.0,3          ,"),
+           "or differ so much in length"));
+}
+
 TEST_F(AstrayEntry, AWeightThatIsElsewhereIsTold) {
   FLANK_REAL_PART(blade, "zoo/asitus_blade.igs");
   const std::string line = "P    485", weight = "the weight of control point";
@@ -121,7 +129,7 @@ TEST_F(AstrayEntry, AWeightThatIsElsewhereIsTold) {
 
 TEST_F(AstrayEntry, AWeightOfABorderThatIsElsewhereIsTold) {
   FLANK_REAL_PART(blade, "zoo/asitus_blade.igs");
-  const std::string line = "P   1575", weight = "a weight of a curve of its border";
+  const std::string line = "P   1575", weight = "a weight of a border curve";
   EXPECT_FALSE(says(read_part(blade), weight));
   const std::string text = content_of(blade), row = text.substr(text.find(line) - 72, 72 + line.size());
   std::string other = row;
@@ -142,6 +150,34 @@ TEST_F(AstrayEntry, AnEdgeThatIsThereTwiceIsTold) {
   FLANK_REAL_PART(blade, "zoo/occt_bug26264_blade.brep");
   for (const char* twice : {"-8 0 -6 0 -6 0 +4 0 *", "-8 0 -6 0 -8 0 +4 0 *"})
     EXPECT_TRUE(says(changed(blade, "-8 0 -6 0 +5 0 +4 0 *", twice), "the parts of its border are up to ")) << twice;
+}
+
+// The kernel makes no curve of knots that fall, and draws the border anew.
+TEST_F(AstrayEntry, KnotsThatFallAreTold) {
+  FLANK_REAL_PART(blade, "r37_blade.step");
+  EXPECT_TRUE(read_part(blade).left_out.empty());
+  const Part part =
+      changed(blade, "(4,1,1,1,1,1,4),(0.,\n    0.242215360034,", "(4,1,1,1,1,1,4),(0.242215360034,\n    0.,");
+  ASSERT_FALSE(part.left_out.empty());
+  EXPECT_NE(part.left_out.begin()->second.find("its knots do not rise"), std::string::npos)
+      << part.left_out.begin()->second;
+}
+
+// A curve in the surface's parameters that the kernel cannot make, here by a knot a hundred times there, is dropped without a word, and
+// drawn anew from the curve in space.
+TEST_F(AstrayEntry, ACurveInParametersThatCannotBeReadIsTold) {
+  FLANK_REAL_PART(wing, "zoo/occt_bug25994_wing.brep");
+  const std::string lost = "1 edge of its border has no curve on its surface";
+  EXPECT_FALSE(says(read_part(wing), lost));
+  EXPECT_TRUE(says(changed(wing, " 89.250150098260249 1 ", " 89.250150098260249 9 "), lost));
+}
+
+// A reference that names another shape of the file: what it named before belongs to nothing.
+TEST_F(AstrayEntry, AShapeThatNothingRefersToIsTold) {
+  FLANK_REAL_PART(wing, "zoo/occt_bug25994_wing.brep");
+  const std::string unused = "the file also holds 3 faces, ";
+  EXPECT_FALSE(says(read_part(wing), "belong to no shape"));
+  EXPECT_TRUE(says(changed(wing, "1100000\n+2 1 *", "1100000\n-4 0 *"), unused));
 }
 
 // An arc that runs the other way round its circle: the border winds round the cone, and the kernel closes it over the apex.

@@ -73,5 +73,16 @@ TEST(Triangulate, RealPartsKeepTheStatedDeviation) {
   }
 }
 
+// A face that Open CASCADE's mesher folds: finer meshes of it are no nearer, and took minutes.
+TEST(Triangulate, AFaceThatAMesherFoldsKeepsTheStatedDeviation) {
+  FLANK_REAL_PART(propeller, "zoo/autogiro_prop1045.step");
+  const Part part = read_part(propeller);
+  const FaceTriangles blade = triangulate_face(part.faces[14], 0.02);
+  EXPECT_EQ(part.faces[14].id, "F15");
+  EXPECT_LE(blade.deviation_mm, 0.02);
+  EXPECT_FALSE(blade.beyond_border);
+  EXPECT_NEAR(area_of(blade.mesh), 2449.25, 0.01 * 2449.25);
+}
+
 }  // namespace
 }  // namespace flank::internal

@@ -119,9 +119,18 @@ void note_border_gap(const TopoDS_Face& face, const std::string& name, Part& par
                     "before using the result",
                     name, gap));
   if (const double factor = border_stray_weight(face); factor > 0.0)
+    part.repairs.push_back(
+        fmt::format("{}: a weight of a border curve differs from its neighbours by a factor of {:.3g}; check it before "
+                    "using the result",
+                    name, factor));
+}
+
+/// Says where edges of a face have no curve on its surface.
+void note_lost_curves(int lost, const std::string& name, Part& part) {
+  if (lost > 0)
     part.repairs.push_back(fmt::format(
-        "{}: a weight of a curve of its border is {:.3g} times off those beside it; check it before using the result",
-        name, factor));
+        "{}: {} of its border {} no curve on its surface that can be read; check it before using the result", name,
+        lost == 1 ? "1 edge" : fmt::format("{} edges", lost), lost == 1 ? "has" : "have"));
 }
 
 /// Says of which solids borders are free: a face is missing there, or does not meet its neighbours.
@@ -161,6 +170,7 @@ void add_face(const TopoDS_Face& face, const std::string& spoilt, Part& part) {
   OcctFace converted;
   converted.type = "unknown";
   std::string why;
+  const int lost = border_without_curves(face);  // what is converted has such curves
   try {
     converted = convert_occt_face(face, name);
     if (!spoilt.empty()) why = fmt::format("{}: some of its data could not be read ({})", name, spoilt);
@@ -173,6 +183,7 @@ void add_face(const TopoDS_Face& face, const std::string& spoilt, Part& part) {
   part.repairs.insert(part.repairs.end(), converted.notes.begin(), converted.notes.end());
   add_extent(face, converted.type, part.box);
   note_border_gap(face, name, part);
+  note_lost_curves(lost, name, part);
   converted.face.id = std::move(whole.id);
   part.faces.push_back(std::move(converted.face));
   part.surface_types.push_back(std::move(converted.type));

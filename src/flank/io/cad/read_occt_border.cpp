@@ -128,6 +128,14 @@ double border_gap(const TopoDS_Face& face) {
   return gap > most ? gap : 0.0;
 }
 
+int border_without_curves(const TopoDS_Face& face) {
+  int lost = 0;
+  double first = 0.0, last = 0.0;
+  for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next())
+    lost += BRep_Tool::CurveOnSurface(TopoDS::Edge(it.Current()), face, first, last).IsNull() ? 1 : 0;
+  return lost;
+}
+
 double border_stray_weight(const TopoDS_Face& face) {
   double worst = 0.0, first = 0.0, last = 0.0;
   for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next()) {

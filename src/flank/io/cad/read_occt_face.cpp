@@ -78,7 +78,7 @@ ParameterWindow box_of(const TopoDS_Face& face, const Handle(Geom_Surface) & sur
   };
   // Planes and cylinders go on for ever: without trims there is nothing to make a spline of.
   if (!bounded(b.u0, b.u1) || !bounded(b.v0, b.v1))
-    throw InputError(name + ": has no finite extent; expected faces that trims bound on every side");
+    throw InputError(name + ": has no finite extent; expected faces bounded by trims on every side");
   double u0 = 0.0, u1 = 0.0, v0 = 0.0, v1 = 0.0;
   surface->Bounds(u0, u1, v0, v1);
   const auto snap = [](double& t, double end, double mm) {
@@ -143,13 +143,13 @@ void note_stray_pole(const Handle(Geom_Surface) & surface, const std::string& na
   const BSplineSurface net = net_of(*spline);
   if (const auto stray = stray_pole(net))
     notes.push_back(fmt::format(
-        "{}: control point {}, {} of its surface is {:.3g} mm off the line of its neighbours, far more than "
+        "{}: control point {}, {} of its surface lies {:.3g} mm off the line of its neighbours, far more than "
         "any other; check it before using the result",
         name, stray->u + 1, stray->v + 1, stray->off));
   if (const auto stray = stray_weight(net))
     notes.push_back(fmt::format(
-        "{}: the weight of control point {}, {} of its surface is {:.3g} times off those of its neighbours, far "
-        "more than any other; check it before using the result",
+        "{}: the weight of control point {}, {} of its surface differs from its neighbours by a factor of {:.3g}, "
+        "far more than any other; check it before using the result",
         name, stray->u + 1, stray->v + 1, stray->off));
 }
 

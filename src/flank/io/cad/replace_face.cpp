@@ -8,12 +8,8 @@
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <GProp_GProps.hxx>
-#include <Geom2dAPI_Interpolate.hxx>
-#include <Geom2d_BSplineCurve.hxx>
 #include <Geom_Curve.hxx>
 #include <Standard_Failure.hxx>
-#include <TColStd_HArray1OfReal.hxx>
-#include <TColgp_HArray1OfPnt2d.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
@@ -26,6 +22,7 @@
 
 #include "flank/error.h"
 #include "flank/io/cad/read_occt_face.h"
+#include "flank/io/cad/trim_occt_neighbour.h"
 #include "flank/io/cad/write_occt_face.h"
 #include "flank/io/cad/write_occt_products.h"
 #include "flank/io/kernel/read_occt_shape.h"
@@ -34,9 +31,6 @@
 namespace flank::internal {
 namespace {
 
-/// Places at which a border is led over to the new surface, and places between two of them at which it is held against it.
-constexpr int kBorderPoints = 120, kBetween = 4;
-constexpr double kSpareTolerance = 1.02;    ///< of an edge, for what lies between the places
 constexpr double kLeastToleranceMm = 1e-6;  ///< of an edge
 
 Vec3 vec(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
@@ -89,43 +83,9 @@ std::string unusable_border(const TopoDS_Face& face) {
   return {};
 }
 
-/// Leads an edge over to a surface as its curve of nearest points; returns how far off it is at most, or none where it runs past
-/// the surface.
-std::optional<double> lead_over(const TopoDS_Edge& edge, const Handle(Geom_BSplineSurface) & surface,
-                                const std::function<std::optional<Vec2>(const Vec3&)>& nearest) {
-  double first = 0.0, last = 0.0;
-  const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, first, last);
-  const Handle(TColgp_HArray1OfPnt2d) points = new TColgp_HArray1OfPnt2d(1, kBorderPoints);
-  const Handle(TColStd_HArray1OfReal) places = new TColStd_HArray1OfReal(1, kBorderPoints);
-  for (int k = 0; k < kBorderPoints; ++k) {
-    const double t = first + (last - first) * k / (kBorderPoints - 1);
-    const std::optional<Vec2> at = nearest(vec(curve->Value(t)));
-    if (!at) return {};
-    points->SetValue(k + 1, gp_Pnt2d(at->x(), at->y()));
-    places->SetValue(k + 1, t);
-  }
-  Geom2dAPI_Interpolate through(points, places, Standard_False, 1e-12);
-  through.Perform();
-  if (!through.IsDone()) return {};
-  const Handle(Geom2d_BSplineCurve) trim = through.Curve();
-  double off = 0.0;
-  for (int k = 0; k <= kBetween * (kBorderPoints - 1); ++k) {
-    const double t = first + (last - first) * k / (kBetween * (kBorderPoints - 1));
-    const gp_Pnt2d q = trim->Value(t);
-    off = std::max(off, curve->Value(t).Distance(surface->Value(q.X(), q.Y())));
-  }
-  const BRep_Builder builder;
-  const double tolerance = std::max(BRep_Tool::Tolerance(edge), kSpareTolerance * off + kLeastToleranceMm);
-  builder.UpdateEdge(edge, trim, surface, TopLoc_Location(), tolerance);
-  builder.Range(edge, surface, TopLoc_Location(), first, last);
-  for (TopExp_Explorer it(edge, TopAbs_VERTEX); it.More(); it.Next())
-    builder.UpdateVertex(TopoDS::Vertex(it.Current()), tolerance);
-  return off;
-}
-
-/// The face with another surface and the same borders; none, with the reason in `why`, where that cannot be.
-std::optional<TopoDS_Face> replaced(const TopoDS_Face& old, const NewSurface& wanted, double& gap_mm,
-                                    std::string& why) {
+/// The face with another surface, its borders where that meets the neighbours; none, with the reason in `why`, where that cannot be.
+std::optional<TopoDS_Face> replaced(const TopoDS_Shape& shape, const TopoDS_Face& old, const NewSurface& wanted,
+                                    LedBorder& led, std::string& why) {
   why = unusable_border(old);
   if (!why.empty()) return {};
   NewSurface next = wanted;
@@ -141,14 +101,16 @@ std::optional<TopoDS_Face> replaced(const TopoDS_Face& old, const NewSurface& wa
   const BRep_Builder builder;
   TopoDS_Face face;
   builder.MakeFace(face, surface, kLeastToleranceMm);
+  BorderMove borders(shape, old, next);
   for (TopExp_Explorer it(old.Oriented(TopAbs_FORWARD), TopAbs_WIRE); it.More(); it.Next()) {
     for (TopExp_Explorer edge(it.Current(), TopAbs_EDGE); edge.More(); edge.Next()) {
-      const std::optional<double> off = lead_over(TopoDS::Edge(edge.Current()), surface, next.nearest);
-      if (!off) {
+      const std::optional<LedBorder> one = borders.lead_over(TopoDS::Edge(edge.Current()), surface);
+      if (!one) {
         why = "its border runs past the new surface";
         return {};
       }
-      gap_mm = std::max(gap_mm, *off);
+      led.off_mm = std::max(led.off_mm, one->off_mm);
+      led.moved_mm = std::max(led.moved_mm, one->moved_mm);
     }
     builder.Add(face, it.Current());
   }
@@ -190,13 +152,14 @@ ReplacedFaces replace_faces(const std::string& file, const std::string& format, 
     std::vector<TopoDS_Face> fresh;
     for (const NewSurface& next : surfaces) {
       const TopoDS_Face old = TopoDS::Face(loaded.faces(next.face + 1));
-      double gap = 0.0;
-      const std::optional<TopoDS_Face> face = replaced(old, next, gap, out.why);
+      LedBorder led;
+      const std::optional<TopoDS_Face> face = replaced(loaded.shape, old, next, led, out.why);
       if (!face) {
         out.why = "F" + std::to_string(next.face + 1) + ": " + out.why;
         return out;
       }
-      out.gap_mm.push_back(gap);
+      out.gap_mm.push_back(led.off_mm);
+      out.moved_mm.push_back(led.moved_mm);
       fresh.push_back(*face);
       context->Replace(old, *face);
     }

@@ -1,33 +1,24 @@
 /// Faces of a CAD part with other surfaces in their place, the rest of the part as it is.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "flank/face.h"
-#include "flank/vec.h"
+#include "flank/io/cad/new_surface.h"
 
 namespace flank::internal {
-
-/// What takes the place of a face's surface. The borders of the face stay where they are in space, shared with its neighbours; on the
-/// new surface they run along their nearest points.
-struct NewSurface {
-  int face = 0;            ///< 0-based, in the order of the file
-  BSplineSurface surface;  ///< mm; reaches past all borders of the face
-  /// Parameters of the nearest point of the surface; none: the point lies beyond it.
-  std::function<std::optional<Vec2>(const Vec3&)> nearest;
-};
 
 /// The part with its new surfaces.
 struct ReplacedFaces {
   std::vector<Face>
       faces;  ///< the new ones, trimmed, in the order of the request; ids are those of the file that is made
   std::vector<double>
-      gap_mm;        ///< of each: largest distance of its borders, as the neighbours have them, from the new surface
-  std::string step;  ///< the whole part, AP214, millimetres; empty where the faces cannot be replaced
-  std::string why;   ///< why not: a sentence
+      gap_mm;  ///< of each: largest distance of its borders, as the neighbours have them, from the new surface
+  std::vector<double> moved_mm;  ///< of each: largest distance of its new borders from the old ones
+  std::string step;              ///< the whole part, AP214, millimetres; empty where the faces cannot be replaced
+  std::string why;               ///< why not: a sentence
 };
 
 /// Reads the file again, which must have been read before without complaint, and replaces its faces. Throws InputError where it cannot be read.

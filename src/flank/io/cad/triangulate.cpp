@@ -10,6 +10,7 @@
 
 #include "flank/base/parallel.h"
 #include "flank/error.h"
+#include "flank/geom/tessellate.h"
 #include "flank/geom/trim.h"
 #include "flank/io/cad/write_occt_face.h"
 #include "flank/io/kernel/read_occt_silence.h"
@@ -22,6 +23,9 @@ constexpr int kTries = 4;            ///< meshes of one face, each finer
 constexpr double kAreaShare = 0.02;  ///< of the trimmed parameter area that the triangles may miss or add
 constexpr int kCoarsestGrid = 8, kFinestGrid = 256;
 constexpr int kGradedTries = 3;
+constexpr int kMostCut = 4 * kMostTriangles;  ///< most are along the border
+constexpr double kFar =
+    2.0;  ///< of the deviation asked for: what is said of a mesh (clearance_scene.cpp), and what another one is tried for
 
 /// Triangles with the parameters of their vertices.
 struct ParameterMesh {
@@ -198,6 +202,51 @@ FaceTriangles by_graded_grid(const Face& face, double wanted) {
   return out;
 }
 
+/// A trimmed face that a mesher does not bring near enough, in cells that its loops cut: off its border by less than a quarter of their
+/// side. Empty where that would take too many triangles, or where the cells miss some of it.
+FaceTriangles by_cut_grid(const Face& face, double wanted, double area) {
+  constexpr double kSides = 100.0;  // cells along the face, at least: a border is no straighter than they
+  Box3 box;
+  for (const Vec3& pole : face.surface.poles) box.add(pole);
+  FaceTriangles out;
+  out.face = face.id;
+  double aim = wanted;
+  for (int k = 0; k < kGradedTries; ++k) {
+    Tessellation cut = tessellate(face, {.chord_mm = aim, .edge_mm = box.diagonal() / kSides});
+    ParameterMesh m{std::move(cut.mesh), std::move(cut.parameters)};
+    if (static_cast<int>(m.mesh.triangles.size()) > kMostCut || std::abs(parameter_area(m) - area) > kAreaShare * area)
+      break;
+    out.deviation_mm = deviation_of(face.surface, m);
+    out.mesh = std::move(m.mesh);
+    if (out.deviation_mm <= wanted) break;
+    aim *= std::clamp(0.8 * wanted / out.deviation_mm, 0.1, 0.8);
+  }
+  return out;
+}
+
+/// What Open CASCADE's mesher makes, finer and finer as long as that brings it nearer; empty where it leaves holes.
+FaceTriangles by_mesher(const Face& face, double wanted, double area) {
+  constexpr double kNearer = 0.7;  // a finer mesh of a face that the mesher folds is no nearer, and takes minutes
+  FaceTriangles best;
+  best.face = face.id;
+  double deflection = wanted;
+  for (int k = 0; k < kTries; ++k) {
+    ParameterMesh m = mesh_of(face, deflection);
+    // A mesher that gives up leaves holes: the areas tell.
+    if (m.mesh.triangles.empty() || std::abs(parameter_area(m) - area) > kAreaShare * area) break;
+    const double before = best.mesh.triangles.empty() ? 1e300 : best.deviation_mm, here = deviation_of(face.surface, m);
+    if (here < before) {
+      best.deviation_mm = here;
+      best.mesh = std::move(m.mesh);
+    }
+    // What is reached when there are too many triangles is told as it is (deviation_mm).
+    if (here <= wanted || here > kNearer * before || static_cast<int>(best.mesh.triangles.size()) > kMostTriangles)
+      break;
+    deflection *= std::clamp(0.7 * wanted / here, 0.1, 0.5);
+  }
+  return best;
+}
+
 /// The last resort, where the mesher fails: ever finer cells of the parameter rectangle.
 FaceTriangles by_grid(const Face& face, double wanted) {
   FaceTriangles out;
@@ -223,19 +272,10 @@ FaceTriangles triangulate_face(const Face& face, double deviation_mm) {
   if (TrimRegion(face.loops, domain(face.surface)).whole())
     if (FaceTriangles graded = by_graded_grid(face, deviation_mm); !graded.mesh.triangles.empty()) return graded;
   const double area = trimmed_area(face);
-  FaceTriangles best;
-  best.face = face.id;
-  double deflection = deviation_mm;
-  for (int k = 0; k < kTries; ++k) {
-    ParameterMesh m = mesh_of(face, deflection);
-    // A mesher that gives up leaves holes: the areas tell.
-    if (m.mesh.triangles.empty() || std::abs(parameter_area(m) - area) > kAreaShare * area) break;
-    best.deviation_mm = deviation_of(face.surface, m);
-    best.mesh = std::move(m.mesh);
-    // What is reached when there are too many triangles is told as it is (deviation_mm).
-    if (best.deviation_mm <= deviation_mm || static_cast<int>(best.mesh.triangles.size()) > kMostTriangles) break;
-    deflection *= std::clamp(0.7 * deviation_mm / best.deviation_mm, 0.1, 0.5);
-  }
+  FaceTriangles best = by_mesher(face, deviation_mm, area);
+  if (!best.mesh.triangles.empty() && best.deviation_mm <= kFar * deviation_mm) return best;
+  if (FaceTriangles cut = by_cut_grid(face, deviation_mm, area); !cut.mesh.triangles.empty())
+    if (best.mesh.triangles.empty() || cut.deviation_mm < best.deviation_mm) return cut;
   return best.mesh.triangles.empty() ? by_grid(face, deviation_mm) : best;
 }
 

@@ -67,8 +67,8 @@ TopoDS_Solid solid_in_order(const TopoDS_Shape& shape, const std::vector<TopoDS_
     }
   }
   if (found != order.size() || found != all)
-    throw InternalError(name + ": a solid of " + std::to_string(order.size()) + " faces came out as " +
-                        std::to_string(all) + ", " + std::to_string(found) + " of them known");
+    throw InternalError(name + ": a solid of " + std::to_string(order.size()) + " faces was built with " +
+                        std::to_string(all) + ", " + std::to_string(found) + " of them the intended ones");
   shell.Closed(BRep_Tool::IsClosed(shell));
   TopoDS_Solid solid;
   builder.MakeSolid(solid);

@@ -7,6 +7,10 @@
 #include <Interface_EntityIterator.hxx>
 #include <Interface_Graph.hxx>
 #include <Interface_InterfaceModel.hxx>
+#include <StepGeom_BSplineCurveWithKnots.hxx>
+#include <StepGeom_BSplineCurveWithKnotsAndRationalBSplineCurve.hxx>
+#include <StepGeom_BSplineSurfaceWithKnots.hxx>
+#include <StepGeom_BSplineSurfaceWithKnotsAndRationalBSplineSurface.hxx>
 #include <StepGeom_CartesianPoint.hxx>
 #include <StepGeom_Direction.hxx>
 #include <StepGeom_Pcurve.hxx>
@@ -16,6 +20,7 @@
 #include <StepShape_FaceSurface.hxx>
 #include <StepShape_OrientedEdge.hxx>
 #include <StepShape_VertexPoint.hxx>
+#include <TColStd_HArray1OfReal.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
@@ -118,6 +123,23 @@ std::string torn(const Entity& entity) {
   return {};
 }
 
+/// Knots that fall: the kernel sorts some, and makes of others no curve or another one, without a word.
+std::string falling_knots(const Entity& entity) {
+  const auto falls = [](const Handle(TColStd_HArray1OfReal) & knots) {
+    return !knots.IsNull() && !std::is_sorted(knots->begin(), knots->end());
+  };
+  auto curve = Handle(StepGeom_BSplineCurveWithKnots)::DownCast(entity);
+  auto surface = Handle(StepGeom_BSplineSurfaceWithKnots)::DownCast(entity);
+  if (const auto both = Handle(StepGeom_BSplineCurveWithKnotsAndRationalBSplineCurve)::DownCast(entity); !both.IsNull())
+    curve = both->BSplineCurveWithKnots();
+  if (const auto both = Handle(StepGeom_BSplineSurfaceWithKnotsAndRationalBSplineSurface)::DownCast(entity);
+      !both.IsNull())
+    surface = both->BSplineSurfaceWithKnots();
+  const bool fall = (!curve.IsNull() && falls(curve->Knots())) ||
+                    (!surface.IsNull() && (falls(surface->UKnots()) || falls(surface->VKnots())));
+  return fall ? "its knots do not rise" : "";
+}
+
 /// An edge that a border runs along twice the same way. Both ways is a seam.
 std::string repeated_edge(const Entity& entity) {
   const auto loop = Handle(StepShape_EdgeLoop)::DownCast(entity);
@@ -185,7 +207,7 @@ std::vector<Complaint> complaints_of(const Handle(XSControl_WorkSession) & sessi
     std::string text = failure_of(model->Check(i, true));
     if (text.empty())
       if (const Handle(Transfer_Binder) made = process->Find(entity); !made.IsNull()) text = failure_of(made->Check());
-    for (const auto& look : {dropped_edge, lacks_coordinates, torn, repeated_edge, repeated_border})
+    for (const auto& look : {dropped_edge, lacks_coordinates, falling_knots, torn, repeated_edge, repeated_border})
       if (text.empty()) text = look(entity);
     if (text.empty()) text = closed_by_seam(entity, process);
     if (!text.empty()) all.push_back({entity, std::move(text)});

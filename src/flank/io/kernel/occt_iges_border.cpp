@@ -64,6 +64,19 @@ double largest_gap(const std::vector<SpaceCurve>& from, const std::vector<SpaceC
   return gap > most ? gap : 0.0;
 }
 
+double length_of(const std::vector<SpaceCurve>& curves) {
+  double length = 0.0;
+  for (const SpaceCurve& curve : curves) length += curve.length();
+  return length;
+}
+
+/// A curve that runs there and back on itself is nowhere off the other one, and longer: by how much. Paces differ, lengths hardly.
+double excess_length(const std::vector<SpaceCurve>& a, const std::vector<SpaceCurve>& b, double most) {
+  constexpr double kShare = 0.02, kGaps = 10.0;
+  const double length = length_of(a), other = length_of(b), excess = std::abs(length - other);
+  return excess > std::max(kGaps * most, kShare * std::max(length, other)) ? excess : 0.0;
+}
+
 }  // namespace
 
 double iges_border_gap(const Handle(IGESData_IGESModel) & model, const Handle(IGESData_IGESEntity) & entity,
@@ -86,7 +99,8 @@ double iges_border_gap(const Handle(IGESData_IGESModel) & model, const Handle(IG
   }
   if (stated.empty()) return 0.0;
   // Both ways: a bulge may be narrower than the other curve's points are apart. An edge of a border that states no curve has none.
-  return std::max(largest_gap(stated, edges, most), all ? largest_gap(edges, stated, most) : 0.0);
+  const double gap = largest_gap(stated, edges, most);
+  return all ? std::max({gap, largest_gap(edges, stated, most), excess_length(stated, edges, most)}) : gap;
 }
 
 }  // namespace flank::internal

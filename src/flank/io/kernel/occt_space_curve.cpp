@@ -1,5 +1,7 @@
 #include "flank/io/kernel/occt_space_curve.h"
 
+#include <GCPnts_AbscissaPoint.hxx>
+#include <GeomAdaptor_Curve.hxx>
 #include <gp_Vec.hxx>
 
 namespace flank::internal {
@@ -24,6 +26,11 @@ double SpaceCurve::distance(const gp_Pnt& p, double enough) const {
     t = std::clamp(t + gp_Vec(c, p).Dot(d) / d.SquareMagnitude(), first_, last_);
   }
   return best;
+}
+
+double SpaceCurve::length() const {
+  constexpr double kTolerance = 1e-3;
+  return GCPnts_AbscissaPoint::Length(GeomAdaptor_Curve(curve_, first_, last_), kTolerance);
 }
 
 }  // namespace flank::internal

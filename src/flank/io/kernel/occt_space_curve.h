@@ -42,6 +42,8 @@ class SpaceCurve {
   [[nodiscard]] const std::vector<gp_Pnt>& points() const { return points_; }
   /// From the nearest of the points by the method of Gauss and Newton; any distance that is no more than `enough` if there is one.
   [[nodiscard]] double distance(const gp_Pnt& p, double enough) const;
+  /// mm, to a thousandth of it.
+  [[nodiscard]] double length() const;
 
  private:
   Handle(Geom_Curve) curve_;

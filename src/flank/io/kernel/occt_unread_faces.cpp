@@ -204,7 +204,7 @@ void note_astray_borders(const Handle(XSControl_WorkSession) & session, const Fa
     if (const double gap = made.IsNull() ? 0.0 : iges_border_gap(model, face, made); gap > 0.0)
       notes.push_back(
           fmt::format("{}: the curves of its border in space and in the parameters of its surface are up to {:.2g} mm "
-                      "apart; check it before using the result",
+                      "apart, or differ so much in length; check it before using the result",
                       model->StringLabel(entity)->ToCString(), gap));
   }
 }

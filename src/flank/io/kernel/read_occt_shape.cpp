@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <BRepBuilderAPI_Transform.hxx>
-#include <BRepTools.hxx>
+#include <BRepTools_ShapeSet.hxx>
 #include <BRep_Builder.hxx>
 #include <IGESControl_Reader.hxx>
 #include <IGESData_GlobalSection.hxx>
@@ -15,11 +15,14 @@
 #include <TCollection_HAsciiString.hxx>
 #include <TopAbs_ShapeEnum.hxx>
 #include <TopExp.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <fstream>
 #include <istream>
 #include <map>
+#include <set>
 #include <streambuf>
 
 #include "flank/error.h"
@@ -143,11 +146,36 @@ OcctShape load_iges(const std::string& file) {
   return result;
 }
 
+/// What the file holds and its shape does not use: programs write what they use, so that a reference to it is lost.
+void note_unused(const BRepTools_ShapeSet& all, OcctShape& result) {
+  TopTools_IndexedMapOfShape used;
+  TopExp::MapShapes(result.shape, used);
+  std::set<const TopoDS_TShape*> known;
+  for (int i = 1; i <= used.Extent(); ++i) known.insert(used(i).TShape().get());
+  int faces = 0, edges = 0, others = 0;
+  for (int i = 1; i <= all.NbShapes(); ++i) {
+    if (known.count(all.Shape(i).TShape().get()) > 0) continue;
+    const TopAbs_ShapeEnum kind = all.Shape(i).ShapeType();
+    ++(kind == TopAbs_FACE ? faces : kind == TopAbs_EDGE ? edges : others);
+  }
+  if (faces + edges + others > 0)
+    result.notes.push_back(fmt::format(
+        "the file also holds {} faces, {} edges and {} other entities that belong to no shape in it; check it "
+        "before using the result",
+        faces, edges, others));
+}
+
 /// BREP files state no unit, and count in millimetres.
 OcctShape load_brep(const std::string& file) {
   OcctShape result;
-  if (!BRepTools::Read(result.shape, PlainFile(file).name().c_str(), BRep_Builder()))
-    refuse_content(file, "BREP", "its structure is damaged");
+  const PlainFile plain(file);
+  std::ifstream stream(plain.name(), std::ios::binary);
+  BRepTools_ShapeSet all{BRep_Builder()};
+  all.Read(stream);
+  if (all.NbShapes() == 0) refuse_content(file, "BREP", "its structure is damaged");
+  all.Read(result.shape, stream);
+  if (result.shape.IsNull()) refuse_content(file, "BREP", "its structure is damaged");
+  note_unused(all, result);
   state_unit(result, 1.0);
   return result;
 }

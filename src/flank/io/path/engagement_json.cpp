@@ -44,7 +44,8 @@ PathEngagement engagement_from_json(std::string_view text, const std::string& fi
   for (std::size_t k = 0; k < strips.size(); ++k) {
     const JsonInput strip = strips.element(k);
     const std::size_t poses = path.strips[k].poses.size();
-    if (strip.size() != poses) strip.refuse(fmt::format("has {} angles, but the strip {} poses", strip.size(), poses));
+    if (strip.size() != poses)
+      strip.refuse(fmt::format("has {} angles, but the strip has {} poses", strip.size(), poses));
     std::vector<double>& angles = engagement.emplace_back();
     for (std::size_t i = 0; i < poses; ++i) {
       const double degrees = strip.element(i).number();

@@ -122,7 +122,7 @@ double unit_of_library(const JsonInput& tool) {
   const std::string unit = tool.has("unit") ? tool.member("unit").text() : "millimeters";
   if (unit == "inches" || unit == "inch") return 25.4;
   if (unit == "millimeters" || unit == "millimeter" || unit == "mm") return 1.0;
-  tool.member("unit").refuse("\"" + unit + "\" is none of inches and millimeters");
+  tool.member("unit").refuse("\"" + unit + "\": must be inches or millimeters");
 }
 
 /// Truncated cones on top of one another from height `at`, mm.
@@ -212,7 +212,7 @@ JsonInput chosen(const JsonInput& document, bool holders, const std::string& whi
   const char* what = holders ? "holder" : "tool";
   throw InputError(
       fmt::format("{}: {} {}s{}; name one: {}#NAME with the name, product number or tool number of one of {}{}", file,
-                  entries.size(), what, which.empty() ? "" : " go by \"" + which + "\"", file, names,
+                  entries.size(), what, which.empty() ? "" : " named \"" + which + "\"", file, names,
                   all.size() > kMostNames ? ", ..." : ""));
 }
 
