@@ -27,6 +27,27 @@ TEST(Turning, ACornerIsTheAngleBetweenItsLegsHoweverDenseItsPosesAre) {
         << step;
 }
 
+TEST(Turning, ACornerBetweenStepsThatAreLongerThanTheWindowIsOne) {
+  for (const double window : {8.0, 1.0, 0.1})
+    EXPECT_NEAR(sharpest_turn(corner(20.0, 25.0 * kDegree, 10.0), kLength, window).angle_rad, 25.0 * kDegree, 1e-9)
+        << window;
+}
+
+TEST(Turning, ALongStepThatTurnsEvenlyHasNoCornerAtItsEnds) {
+  // Ten degrees a step about the tip: the upper end goes round a circle, and a twentieth of it is in the window.
+  std::vector<Pose> poses;
+  for (int k = 0; k <= 9; ++k)
+    poses.push_back({Vec3::Zero(), {std::sin(10.0 * k * kDegree), 0.0, std::cos(10.0 * k * kDegree)}});
+  EXPECT_LT(sharpest_turn(poses, kLength, 0.05 * kLength).angle_rad, 6.0 * kDegree);
+}
+
+TEST(Turning, WhatAProgramRoundsIsNoTurn) {
+  std::vector<Pose> poses;
+  for (int k = 0; k <= 2000; ++k) poses.push_back({{0.01 * k, k % 2 == 0 ? 0.0 : 0.001, 0.0}, Vec3::UnitZ()});
+  // Two roundings over a chord; between the poses themselves it is 11 degrees.
+  EXPECT_LT(sharpest_turn(poses, kLength, 1.0).angle_rad, 2.0 * 0.001 / 0.1);
+}
+
 TEST(Turning, ACircleTurnsByTheWindowOverItsRadius) {
   const double radius = 50.0;
   std::vector<Pose> poses;
@@ -57,6 +78,8 @@ TEST(Turning, AWayBackIsHalfATurnAndNamesItsPlace) {
   EXPECT_NEAR(turn.angle_rad, std::numbers::pi, 1e-9);
   EXPECT_EQ(turn.strip, 1u);
   EXPECT_NEAR(path.strips[1].poses[turn.pose].tip.x(), 20.0, 2.0);
+  path.strips[1].kind = "link";  // in the air
+  EXPECT_NEAR(sharpest_turn(path, kLength, 2.0).angle_rad, 0.1, 1e-9);
 }
 
 TEST(Turning, WhatIsFartherApartThanTheWindowIsNoTurn) {

@@ -57,7 +57,7 @@ TEST(BuriedStrips, TheOtherSideOfAThinBladeIsNotBehindIt) {
   const double y = 0.2 + kRadius;
   const Path path{{along(y), along(-y)}};
   const SheetVotes votes = side_votes(SweptVolume(cylinder(), path), path, sheet, 0.01);
-  EXPECT_TRUE(strips_behind(votes).empty());
+  EXPECT_TRUE(strips_behind({&votes, 1}).empty());
 }
 
 TEST(BuriedStrips, BehindASheetByItsOwnVotes) {
@@ -69,10 +69,46 @@ TEST(BuriedStrips, BehindASheetByItsOwnVotes) {
   const Path path{{along(front * kRadius), along(-front * kRadius), along(30.0)}};
   const SheetVotes votes = side_votes(SweptVolume(cylinder(), path), path, sheet, 0.01);
   EXPECT_EQ(votes.strips[0].behind + votes.strips[1].in_front + votes.strips[2].in_front + votes.strips[2].behind, 0);
-  const std::vector<BuriedStrip> behind = strips_behind(votes);
+  const std::vector<BuriedStrip> behind = strips_behind({&votes, 1});
   ASSERT_EQ(behind.size(), 1u);
   EXPECT_EQ(behind.front().strip, 1);
   EXPECT_NEAR(behind.front().point.y(), 0.0, 1e-12);
+}
+
+TEST(BuriedStrips, AFlankThatEndsBeforeANarrowRimIsNotBehindIt) {
+  // The rim is 0.2 mm wide. The tool goes along the side x = 0.2 up to 0.2 mm before it: some of the rim is within the tolerance.
+  Face face = test::plane_face("F1", 0.2, 20.0);
+  const FaceSamples sheet = sample_face(face, 0.02, true);
+  const double front = sheet.normals.front().y();
+  Strip strip;
+  for (int k = 0; k <= 10; ++k)
+    strip.poses.push_back({Vec3(0.2 + kRadius, front * (0.48 * k - 5.0), 6.0), Vec3::UnitZ()});
+  const Path path{{strip}};
+  const SheetVotes votes = side_votes(SweptVolume(cylinder(), path), path, sheet, 0.05);
+  EXPECT_GT(votes.strips[0].behind, 0.04 * votes.asked);
+  EXPECT_EQ(votes.strips[0].in_front, 0);
+  EXPECT_TRUE(strips_behind({&votes, 1}).empty());
+}
+
+TEST(BuriedStrips, ANarrowEdgeBesideASideThatIsMachinedDoesNotDecide) {
+  // Both lie in one plane, and look to opposite sides: where a flank runs out over an edge, it is beside it, or behind.
+  const Face side = test::plane_face("F1", 40.0, 20.0);
+  Face edge = test::plane_face("F2", 0.6, 20.0), wide = test::plane_face("F3", 8.0, 20.0);
+  edge.reversed = wide.reversed = true;
+  const FaceSamples seen = sample_face(side, 0.5, true);
+  Strip strip;
+  for (int k = 0; k <= 10; ++k)
+    strip.poses.push_back({Vec3(4.0 * k, seen.normals.front().y() * kRadius, 6.0), Vec3::UnitZ()});
+  const Path path{{strip}};
+  const SweptVolume volume(cylinder(), path);
+  const auto behind = [&](const Face& other) {
+    const std::vector<SheetVotes> votes = {side_votes(volume, path, seen, 0.01),
+                                           side_votes(volume, path, sample_face(other, 0.1, true), 0.01)};
+    EXPECT_GT(votes[1].strips[0].from_behind, 0.1 * votes[1].asked);
+    return strips_behind(votes).size();
+  };
+  EXPECT_EQ(behind(edge), 0u);
+  EXPECT_EQ(behind(wide), 1u);
 }
 
 }  // namespace

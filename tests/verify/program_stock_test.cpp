@@ -154,5 +154,32 @@ TEST(ProgramStock, RefusesAPathThatNeverMeetsTheBlank) {
   EXPECT_THROW((void)replay_program(cylinder(), path, {{Vec3::UnitX(), -100.0}}, walls(), kOptions), InputError);
 }
 
+/// A block of 20 x 20 x 10 mm as triangles.
+TriangleMesh block() {
+  TriangleMesh mesh;
+  for (int k = 0; k < 8; ++k) mesh.vertices.emplace_back(20.0 * (k & 1), 10.0 * (k & 2), 2.5 * (k & 4));
+  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return mesh;
+}
+
+TEST(RoughStock, ASlotEngagesHalfOfTheToolAndASecondPassLess) {
+  Tool tool;
+  tool.radial = RadialFunction(ToolFamily::kCylinder, 12.0, Eigen::VectorXd::Constant(1, 2.0));
+  const auto pass = [](double y) {
+    return Strip{1, "flank", "F1", {{Vec3(-4.0, y, 2.0), Vec3::UnitZ()}, {Vec3(24.0, y, 2.0), Vec3::UnitZ()}}};
+  };
+  const StockReport slot = rough_stock(tool, Path{{pass(10.0)}}, block(), 180.0);
+  ASSERT_EQ(slot.kinds.size(), 1U);
+  EXPECT_NEAR(slot.kinds[0].engagement_deg, 180.0, 1.5 * slot.resolution_deg);
+  EXPECT_GT(slot.before_mm3, slot.kinds[0].volume_mm3);
+  EXPECT_LT(slot.before_mm3, 4000.0) << "of the block, what is near the pass";
+  EXPECT_GT(slot.kinds[0].volume_mm3, 4.0 * 20.0 * 8.0);
+  // 1 mm beside the slot: acos((2 - 1) / 2).
+  const StockReport both = rough_stock(tool, Path{{pass(10.0), pass(11.0)}}, block(), 180.0);
+  ASSERT_EQ(both.strip_deg.size(), 2U);
+  EXPECT_NEAR(both.strip_deg[1], 60.0, 2.0 * both.resolution_deg);
+}
+
 }  // namespace
 }  // namespace flank::internal

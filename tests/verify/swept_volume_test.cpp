@@ -97,6 +97,39 @@ TEST(SweptVolume, BallOnACircleIsATorus) {
   }
 }
 
+TEST(SweptVolume, OfTheSameToolAlongAnotherPathIsAsIfMadeAnew) {
+  const auto along = [](double y) {
+    return Path{{{1, "flank", "", {{Vec3(0.0, y, 0.0), Vec3::UnitZ()}, {Vec3(9.0, y, 1.0), Vec3::UnitZ()}}}}};
+  };
+  const SweptVolume first(cylinder(1.5, 30.0), along(0.0)), anew(cylinder(1.5, 30.0), along(5.0));
+  const SweptVolume shared(first, along(5.0));
+  Random random(6);
+  for (int i = 0; i < 100; ++i) {
+    const Vec3 x(random.uniform(-3, 12), random.uniform(-3, 9), random.uniform(-3, 33));
+    EXPECT_EQ(shared.distance(x).f, anew.distance(x).f);
+  }
+}
+
+// What a cell of a face is proved to be near to (proof/cover_search.cpp).
+TEST(SweptVolume, ABallGoesStraightFromPoseToPoseUpToItsOffset) {
+  Random random(5);
+  Strip strip;
+  for (int i = 0; i <= 12; ++i)
+    strip.poses.push_back({Vec3(3.0 * i, random.uniform(-1, 1), random.uniform(-1, 1)),
+                           Vec3(0.3 * random.uniform(-1, 1), 0.3 * random.uniform(-1, 1), 1.0).normalized()});
+  const SweptVolume volume(cylinder(1.5, 30.0), Path{{strip}});
+  double most_off = 0.0;
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 x(random.uniform(1, 35), random.uniform(-4, 4), random.uniform(-2, 30));
+    const SweptVolume::BallWay way = volume.ball_way(volume.distance(x));
+    most_off = std::max(most_off, way.off);
+    const Vec3 n = Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)).normalized();
+    const Vec3 at = way.from + random.uniform(0, 1) * way.along + way.radius * n;
+    ASSERT_LE(volume.distance(at).f, way.off + kExactMm);
+  }
+  EXPECT_GT(most_off, 0.1) << "directions that turn by little prove nothing of it";
+}
+
 TEST(SweptVolume, TurningAboutItsTipSweepsAFan) {
   Strip strip;
   for (int i = 0; i <= 6; ++i) {

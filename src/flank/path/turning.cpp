@@ -5,12 +5,17 @@
 #include <numbers>
 #include <vector>
 
+#include "flank/path/joined_pose.h"
+#include "flank/path/strip_kind.h"
 #include "flank/vec.h"
 
 namespace flank::internal {
 namespace {
 
-/// Steps that are shorter have no direction.
+/// Of the window: the length of the chords that give the directions. Shorter ones would tell of a program's rounding, longer ones would
+/// not see both legs of a corner.
+constexpr double kChordShare = 1.0 / 32.0;
+/// Chords that are shorter have no direction.
 constexpr double kStillMm = 1e-7;
 
 using Vec6 = Eigen::Matrix<double, 6, 1>;
@@ -18,24 +23,39 @@ using Vec6 = Eigen::Matrix<double, 6, 1>;
 /// Of two unit vectors, to all digits also where they are nearly alike or opposed.
 double angle_between(const Vec6& a, const Vec6& b) { return 2.0 * std::atan2((a - b).norm(), (a + b).norm()); }
 
-/// One step of the motion.
-struct Step {
+Vec6 ends_of(const Pose& pose, double axis_length) {
+  Vec6 ends;
+  ends << pose.tip, pose.at(axis_length);
+  return ends;
+}
+
+/// A chord of the motion.
+struct Chord {
   Vec6 direction;
   double at_mm = 0.0;    ///< its middle, along the way
-  std::size_t pose = 0;  ///< that it begins at
+  std::size_t pose = 0;  ///< before it ends
 };
 
-std::vector<Step> steps_of(std::span<const Pose> poses, double axis_length) {
-  std::vector<Step> steps;
-  double way = 0.0;
-  for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
-    Vec6 step;
-    step << poses[i + 1].tip - poses[i].tip, poses[i + 1].at(axis_length) - poses[i].at(axis_length);
-    const double length = step.norm();
-    if (length > kStillMm) steps.push_back({step / length, way + 0.5 * length, i});
-    way += length;
+/// As many as divide the way evenly, none longer than `longest_mm`.
+std::vector<Chord> chords_of(std::span<const Pose> poses, double axis_length, double longest_mm) {
+  std::vector<double> ways{0.0};
+  for (std::size_t i = 1; i < poses.size(); ++i)
+    ways.push_back(ways.back() + (ends_of(poses[i], axis_length) - ends_of(poses[i - 1], axis_length)).norm());
+  const auto count = static_cast<std::size_t>(std::ceil(ways.back() / longest_mm));
+  std::vector<Chord> chords;
+  if (count == 0) return chords;
+  const double step = ways.back() / static_cast<double>(count);
+  Vec6 from = ends_of(poses.front(), axis_length);
+  for (std::size_t k = 1, i = 0; k <= count; ++k) {
+    const double way = step * static_cast<double>(k);
+    while (i + 2 < poses.size() && ways[i + 1] < way) ++i;
+    const double t = std::clamp((way - ways[i]) / (ways[i + 1] - ways[i]), 0.0, 1.0);
+    const Vec6 to = ends_of(joined_pose(poses[i], poses[i + 1], t), axis_length);
+    const double length = (to - from).norm();
+    if (length > kStillMm) chords.push_back({(to - from) / length, way - 0.5 * step, i});
+    from = to;
   }
-  return steps;
+  return chords;
 }
 
 }  // namespace
@@ -43,17 +63,17 @@ std::vector<Step> steps_of(std::span<const Pose> poses, double axis_length) {
 double turn_window(double diagonal_mm) { return std::numbers::sqrt2 * kTurnStretch * diagonal_mm; }
 
 Turning sharpest_turn(std::span<const Pose> poses, double axis_length, double window_mm) {
-  const std::vector<Step> steps = steps_of(poses, axis_length);
+  const std::vector<Chord> chords = chords_of(poses, axis_length, kChordShare * window_mm);
   double least = 1.0;  // cosine
   Turning sharpest;
   std::size_t first = 0;
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    while (steps[i].at_mm - steps[first].at_mm > window_mm) ++first;
+  for (std::size_t i = 0; i < chords.size(); ++i) {
+    while (chords[i].at_mm - chords[first].at_mm > window_mm) ++first;
     for (std::size_t k = first; k < i; ++k) {
-      const double cosine = steps[i].direction.dot(steps[k].direction);
+      const double cosine = chords[i].direction.dot(chords[k].direction);
       if (cosine >= least) continue;
       least = cosine;
-      sharpest = {angle_between(steps[i].direction, steps[k].direction), 0, steps[i].pose};
+      sharpest = {angle_between(chords[i].direction, chords[k].direction), 0, chords[i].pose};
     }
   }
   return sharpest;
@@ -62,6 +82,7 @@ Turning sharpest_turn(std::span<const Pose> poses, double axis_length, double wi
 Turning sharpest_turn(const Path& path, double axis_length, double window_mm) {
   Turning sharpest;
   for (std::size_t k = 0; k < path.strips.size(); ++k) {
+    if (path.strips[k].kind == kLinkKind) continue;
     Turning here = sharpest_turn(path.strips[k].poses, axis_length, window_mm);
     here.strip = k;
     if (here.angle_rad > sharpest.angle_rad) sharpest = here;

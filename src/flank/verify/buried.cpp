@@ -13,9 +13,13 @@ namespace {
 
 /// Most samples of a sheet that are asked for the side of the tool.
 constexpr std::size_t kVotes = 4096;
-/// A strip machines a sheet from behind by at least this share of the sheet, and by this share of what it touches: where a
-/// tool goes round a rim, or machines the other side of what is thinner than the tolerance there, a few places look behind.
+/// A strip machines a sheet from behind by at least this share of the sheet and of what it touches of all of them, and by this share of
+/// what it touches of that one: where a tool goes round a rim, along a narrow edge, or machines the other side of what is thinner than the
+/// tolerance there, a few places look behind.
 constexpr double kLeastShare = 0.03, kMost = 0.8;
+/// Cosine between a place's normal and the way to the axis: a flank that ends before a rim comes near to the sheet round it, which may be
+/// hardly wider than the tolerance, across its normal.
+constexpr double kAlongNormal = 0.5;
 
 }  // namespace
 
@@ -62,20 +66,34 @@ SheetVotes side_votes(const SweptVolume& volume, const Path& path, const FaceSam
     const auto k = static_cast<std::size_t>(d.strip);
     const auto& poses = path.strips[k].poses;
     const Pose& pose = poses[std::min(poses.size() - 1, static_cast<std::size_t>(std::lround(d.t)))];
-    ++((pose.at(d.s) - some.points[i]).dot(normals[i]) >= 0.0 ? votes[k].in_front : votes[k].behind);
+    const Vec3 way = pose.at(d.s) - some.points[i];
+    const double up = way.dot(normals[i]);
+    ++(up >= 0.0 ? votes[k].in_front : votes[k].behind);
+    if (up < -kAlongNormal * way.norm()) ++votes[k].from_behind;
     if (std::abs(d.f) >= nearest[k]) continue;
     nearest[k] = std::abs(d.f);
     votes[k].point = some.points[i];
   }
-  return {std::move(votes), static_cast<int>(some.points.size())};
+  double area = 0.0;
+  for (const double mm2 : sheet.areas) area += mm2;
+  return {std::move(votes), static_cast<int>(some.points.size()),
+          area / std::max(1.0, static_cast<double>(some.points.size()))};
 }
 
-std::vector<BuriedStrip> strips_behind(const SheetVotes& votes) {
+std::vector<BuriedStrip> strips_behind(std::span<const SheetVotes> votes) {
   std::vector<BuriedStrip> out;
-  for (std::size_t k = 0; k < votes.strips.size(); ++k) {
-    const SideVotes& strip = votes.strips[k];
-    if (strip.behind > kLeastShare * votes.asked && strip.behind > kMost * (strip.in_front + strip.behind))
-      out.push_back({static_cast<int>(k), strip.point});
+  if (votes.empty()) return out;
+  for (std::size_t k = 0; k < votes.front().strips.size(); ++k) {
+    double touched = 0.0;
+    for (const SheetVotes& sheet : votes)
+      touched += sheet.place_mm2 * (sheet.strips[k].in_front + sheet.strips[k].behind);
+    for (const SheetVotes& sheet : votes) {
+      const SideVotes& strip = sheet.strips[k];
+      if (strip.from_behind > kLeastShare * sheet.asked &&
+          strip.from_behind > kMost * (strip.in_front + strip.behind) &&
+          strip.from_behind * sheet.place_mm2 > kLeastShare * touched)
+        out.push_back({static_cast<int>(k), strip.point});
+    }
   }
   return out;
 }

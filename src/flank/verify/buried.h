@@ -20,11 +20,13 @@ namespace flank::internal::verify {
 /// On which side of a sheet, by its samples' normals, a strip runs where it is within a distance of the sheet.
 struct SideVotes {
   int in_front = 0, behind = 0;  ///< places
-  Vec3 point = Vec3::Zero();     ///< the one that the strip is nearest to
+  int from_behind = 0;        ///< those of `behind` that the tool touches along their normal, and not from beside a rim
+  Vec3 point = Vec3::Zero();  ///< the one that the strip is nearest to
 };
 struct SheetVotes {
   std::vector<SideVotes> strips;
-  int asked = 0;  ///< places of the sheet, near to a strip or not
+  int asked = 0;           ///< places of the sheet, near to a strip or not
+  double place_mm2 = 0.0;  ///< of the sheet for each of them
   /// +1 if more places are in front than behind, or as many; else -1.
   [[nodiscard]] int side() const;
 };
@@ -32,7 +34,7 @@ struct SheetVotes {
 [[nodiscard]] SheetVotes side_votes(const SweptVolume& volume, const Path& path, const FaceSamples& sheet,
                                     double within_mm);
 
-/// The strips that machine a sheet from behind. `votes` are those within the tolerance.
-[[nodiscard]] std::vector<BuriedStrip> strips_behind(const SheetVotes& votes);
+/// The strips that machine a sheet from behind. `votes` are those within the tolerance, of each sheet.
+[[nodiscard]] std::vector<BuriedStrip> strips_behind(std::span<const SheetVotes> votes);
 
 }  // namespace flank::internal::verify

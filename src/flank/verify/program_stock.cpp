@@ -210,6 +210,39 @@ void look_along(const std::vector<Ray>& rays, const verify::DexelStock& stock, S
   }
 }
 
+/// Lines of the stock: they cost time in proportion. Its cells are no smaller than this share of the tool's smallest radius, because what is told
+/// is told to a few degrees.
+constexpr double kRoughLines = 4e5, kFinestShare = 0.05;
+constexpr const char* kRoughKind = "rough";
+constexpr double kRoughEdgeCells =
+    4.0;  ///< beyond what the tool reaches, so that the stock does not end where the tool cuts
+
+double cell_for(const Box3& box, const Tool& tool) {
+  const Vec3 size = box.high - box.low;
+  return std::max(kFinestShare * smallest_radius(tool),
+                  std::sqrt((size.x() * size.y() + size.y() * size.z() + size.z() * size.x()) / kRoughLines));
+}
+
+/// What the tool reaches of the blank.
+Box3 reached(const Tool& tool, const Path& path, const Box3& blank) {
+  const double length = tool.radial.axis_length();
+  double radius = tool.radial.at(length).r;
+  constexpr int kLooks = 64;
+  for (int k = 0; k < kLooks; ++k) radius = std::max(radius, tool.radial.at(length * k / kLooks).r);
+  Box3 box;
+  for (const Strip& strip : path.strips)
+    for (const Pose& pose : strip.poses)
+      for (const double s : {0.0, length})
+        box.add(pose.at(s) - Vec3::Constant(radius)), box.add(pose.at(s) + Vec3::Constant(radius));
+  box.low = box.low.cwiseMax(blank.low), box.high = box.high.cwiseMin(blank.high);
+  return box;
+}
+
+/// A cell as engagement: near a slot an angle says little, and the limit is not widened by that.
+double sine_of(double degrees) {
+  return degrees < 90.0 ? std::max(0.1, std::sin(degrees * std::numbers::pi / 180.0)) : 1.0;
+}
+
 }  // namespace
 
 ProgramStock replay_program(const Tool& tool, const Path& path, const std::vector<HalfSpace>& blank,
@@ -235,6 +268,34 @@ ProgramStock replay_program(const Tool& tool, const Path& path, const std::vecto
   look_along(rays_from(tool, path, blank, stock, faces, options.tolerance_mm), stock, out.report);
   if (options.most_triangles > 0.0)
     out.left = verify::stock_mesh(stock, verify::stride_for(stock, options.most_triangles));
+  return out;
+}
+
+StockReport rough_stock(const Tool& tool, const Path& path, const TriangleMesh& blank, double most_engagement_deg) {
+  Box3 box = reached(tool, path, blank.box());
+  if (!((box.high - box.low).minCoeff() > 0.0)) throw InputError("the path never meets the blank");
+  const double cell = cell_for(box, tool);
+  box.low = (box.low.array() - kRoughEdgeCells * cell).max(blank.box().low.array()).matrix();
+  box.high = (box.high.array() + kRoughEdgeCells * cell).min(blank.box().high.array()).matrix();
+  verify::DexelStock stock(blank, box, cell);
+  const verify::StockReplay replay = verify::replay(stock, tool.radial, path);
+  StockReport out;
+  out.cell_mm = replay.cell_mm;
+  out.resolution_deg = kRadian * replay.cell_mm / (smallest_radius(tool) * sine_of(most_engagement_deg));
+  out.before_mm3 = replay.before_mm3, out.left_mm3 = replay.after_mm3;
+  StockKind all{.kind = kRoughKind};
+  for (std::size_t k = 0; k < replay.strips.size(); ++k) {
+    const verify::StripReplay& strip = replay.strips[k];
+    all.way_mm += strip.way_mm, all.volume_mm3 += strip.volume_mm3;
+    if (kRadian * strip.angle_rad > all.engagement_deg) {
+      all.engagement_deg = kRadian * strip.angle_rad;
+      all.strip = static_cast<int>(k), all.pose = strip.pose, all.s = strip.poses[strip.pose].s;
+    }
+    out.strip_deg.push_back(kRadian * strip.angle_rad);
+    out.strip_mm3.push_back(strip.volume_mm3);
+    out.strip_mm.push_back(strip.way_mm);
+  }
+  out.kinds.push_back(all);
   return out;
 }
 

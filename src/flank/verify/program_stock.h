@@ -29,4 +29,10 @@ struct ProgramStock {
 [[nodiscard]] ProgramStock replay_program(const Tool& tool, const Path& path, const std::vector<HalfSpace>& blank,
                                           std::vector<FaceSamples> faces, const ProgramStockOptions& options);
 
+/// Cuts a closed blank, as far as the tool goes, by all strips in their order: engagement, volume and way, of one kind, "rough". The lines of the stock are as near as the
+/// tool's smallest radius asks for, or as they may be many. Throws InputError for a blank that is not closed or that the path never meets, and a tool that is none. The same bits for
+/// any number of threads.
+[[nodiscard]] StockReport rough_stock(const Tool& tool, const Path& path, const TriangleMesh& blank,
+                                      double most_engagement_deg);
+
 }  // namespace flank::internal

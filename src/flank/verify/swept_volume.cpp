@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "flank/base/assert.h"
 
@@ -40,8 +41,8 @@ double piece_reach(const RadialTable& radial) {
 
 }  // namespace
 
-SweptVolume::Data::Data(const Tool& t, const Path& path)
-    : tool(t), distance(t.radial), tree(path, t.radial.axis_length(), piece_reach(distance.radial())) {}
+SweptVolume::Data::Data(const Tool& t, std::shared_ptr<const ToolDistance> of_tool, const Path& path)
+    : tool(t), distance(std::move(of_tool)), tree(path, t.radial.axis_length(), piece_reach(distance->radial())) {}
 
 SweptDistance SweptVolume::Data::at(const Vec3& x, const SweptPlace& place) const {
   if (place.piece < 0) return {place.f, -1, 0.0, 0.0};
@@ -52,7 +53,7 @@ SweptDistance SweptVolume::Data::at(const Vec3& x, const SweptPlace& place) cons
 
 // f has slope 1, by x and for every ball.
 std::vector<int> SweptVolume::Data::roots(const Vec3& x, double spread, double horizon, const SweptPlace& near) const {
-  const RadialTable& radial = distance.radial();
+  const RadialTable& radial = distance->radial();
   if (near.piece >= 0) {
     const Vec3 centre = tree.segment_of(near.piece).at(near.tau).at(near.s);
     horizon = std::min(horizon, (x - centre).norm() - radial.radius(near.s) + spread);
@@ -70,7 +71,10 @@ SweptPlace SweptVolume::Data::find(const SweptDistance& place) const {
   return {place.f, piece, place.t - tree.segment_of(piece).pose, place.s};
 }
 
-SweptVolume::SweptVolume(const Tool& tool, const Path& path) : data_(std::make_unique<const Data>(tool, path)) {}
+SweptVolume::SweptVolume(const Tool& tool, const Path& path)
+    : data_(std::make_unique<const Data>(tool, std::make_shared<const ToolDistance>(tool.radial), path)) {}
+SweptVolume::SweptVolume(const SweptVolume& of_tool, const Path& path)
+    : data_(std::make_unique<const Data>(of_tool.data_->tool, of_tool.data_->distance, path)) {}
 SweptVolume::~SweptVolume() = default;
 SweptVolume::SweptVolume(SweptVolume&&) noexcept = default;
 
@@ -86,7 +90,7 @@ void SweptVolume::distances(std::span<const Vec3> points, std::span<const double
                             std::span<SweptDistance> out) const {
   FLANK_ASSERT(out.size() == points.size() && horizons_mm.size() == points.size());
   SweptPlace near;
-  const double apart = kTogether * data_->distance.radial().least_radius();
+  const double apart = kTogether * data_->distance->radial().least_radius();
   for (std::size_t i = 0; i < points.size();) {
     Box3 box;
     const std::size_t count = std::max<std::size_t>(1, together(points.subspan(i), apart, box));
@@ -116,6 +120,19 @@ SweptVolume::Ball SweptVolume::ball(const SweptDistance& place) const {
   FLANK_ASSERT(place.strip >= 0);
   const SweptPlace at = data_->find(place);
   return {data_->tree.segment_of(at.piece).at(at.tau).at(at.s), data_->tool.radial.at(at.s).r};
+}
+
+SweptVolume::BallWay SweptVolume::ball_way(const SweptDistance& place) const {
+  FLANK_ASSERT(place.strip >= 0);
+  const SweptPlace at = data_->find(place);
+  const auto& g = data_->tree.segment_of(at.piece);
+  const Vec3 w1 = g.w0 + g.dw, u0 = g.w0.normalized(), u1 = w1.normalized();
+  BallWay way{g.a0 + at.s * u0, g.da + at.s * (u1 - u0), data_->tool.radial.at(at.s).r, 0.0};
+  // Between unit vectors the chord has the directions of the arc, at the same tau, and is shorter than 1 by c^2 / 4 at most; what
+  // their lengths lack to 1 moves tau.
+  const double lengths = std::abs(g.w0.norm() - 1.0) + std::abs(w1.norm() - 1.0);
+  way.off = at.s * (0.25 * (u1 - u0).squaredNorm() + 2.0 * lengths);
+  return way;
 }
 
 }  // namespace flank

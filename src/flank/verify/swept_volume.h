@@ -1,6 +1,8 @@
 /// What a SweptVolume (flank/judge.h) holds: tool and path, prepared once for any number of searches.
 #pragma once
 
+#include <memory>
+
 #include "flank/judge.h"
 #include "flank/verify/swept/pose_tree.h"
 #include "flank/verify/swept/swept_search.h"
@@ -9,14 +11,14 @@
 /// Immutable after construction. Searches know places by piece (SweptPlace), callers by strip and pose (SweptDistance).
 struct flank::SweptVolume::Data {
   Tool tool;
-  internal::verify::ToolDistance distance;
+  std::shared_ptr<const internal::verify::ToolDistance> distance;
   internal::verify::PoseTree tree;
 
   /// Throws InputError as SweptVolume does.
-  Data(const Tool& t, const Path& path);
+  Data(const Tool& t, std::shared_ptr<const internal::verify::ToolDistance> of_tool, const Path& path);
 
   /// One query, about x, which must outlive it.
-  [[nodiscard]] internal::verify::SweptSearch search(const Vec3& x) const { return {distance, tree, x}; }
+  [[nodiscard]] internal::verify::SweptSearch search(const Vec3& x) const { return {*distance, tree, x}; }
   /// Where searches about points within `spread` of x begin that ask for nothing above `horizon`: f at these points is at most
   /// that of the ball of `near`.
   [[nodiscard]] std::vector<int> roots(const Vec3& x, double spread, double horizon,

@@ -109,12 +109,36 @@ TEST(CoverSearch, MeshesAndCurvedFaces) {
 }
 
 /// Long cells are cut in two, not in four: a budget that is just enough for that is enough.
+TEST(CoverSearch, PassesThatAreNarrowerThanACellProveItTogether) {
+  // Passes of a tip of radius 0.5 over a plane, 0.2 mm apart, upright on it; the sample's cells are five of them wide.
+  Tool tool;
+  tool.radial = RadialFunction(ToolFamily::kCone, 8.0, Eigen::Vector2d(0.5, 0.1));
+  Path path;
+  for (int pass = 0; pass <= 50; ++pass) {
+    Strip& strip = path.strips.emplace_back();
+    for (int k = 0; k <= 44; ++k)
+      strip.poses.push_back({Vec3(-1.0 + 0.5 * k, 0.5, 0.2 * pass), Vec3(0.2, 1.0, 0.1 * (pass % 2)).normalized()});
+  }
+  const SweptVolume volume(tool, path);
+  const Face face = test::plane_face("F1", 20.0, 10.0);
+  const FaceSamples coarse = sample_face(face, 1.0, true), fine = sample_face(face, 0.06, true);
+  CoverLimits limits = usual_limits(coarse);
+  limits.evaluations = 700 * coarse.points.size();
+  const Coverage c = coverage_of(volume, *make_shape(face), coarse, fine, limits);
+  EXPECT_GE(c.fine, 0.999);
+  EXPECT_GE(c.proved, 0.95);  // 0.81 where each cell only asks the pass of the one before
+}
+
 TEST(CoverSearch, ABudgetIsSpentToItsEnd) {
   Tool tool;
   tool.radial = RadialFunction::spline(20.0, Eigen::VectorXd::Constant(6, 2.0));
-  Strip strip;
-  for (int i = 0; i < 24; ++i) strip.poses.push_back({Vec3(-1.0 + i, 2.0, -3.0), Vec3::UnitZ()});
-  const SweptVolume volume(tool, {{strip}});
+  Path path;  // between passes across the face, what is left nearly reaches the tolerance
+  for (int i = 0; i < 24; ++i)
+    path.strips.push_back({i + 1,
+                           "flank",
+                           "F1",
+                           {{Vec3(-1.0 + i, 2.0, -3.0), Vec3::UnitZ()}, {Vec3(-1.0 + i, 2.0, -2.5), Vec3::UnitZ()}}});
+  const SweptVolume volume(tool, path);
   const Face face = test::plane_face("F1", 20.0, 0.3);
   const FaceSamples samples = sample_face(face, 0.9, true);
   const auto distances = swept_distances(volume, samples, 1e300);

@@ -312,6 +312,21 @@ TEST(DepthSearch, WhatTheLimitsForbidIsNotProved) {
   EXPECT_LT(proved.evaluations, 1000u);
 }
 
+TEST(DepthSearch, WhatIsKnownBeforeSparesNoDeeperPlace) {
+  const Face plane = test::plane_face("F1", 40.0, 20.0);
+  const auto shape = make_shape(plane);
+  Path path = dip(13.7, 7.1, 0.004, 1.0);
+  path.strips.push_back(dip(30.3, 12.9, 0.009, 1.0).strips[0]);
+  const Tool tool = stick(1.0);
+  const SweptVolume volume(tool, path);
+  for (const double known : {0.0, 0.004, 0.0089}) {
+    const ProvedDepth proved = search_depth(volume, 1.0, *shape, known, usual_limits());
+    EXPECT_GE(proved.bound_mm, 0.009 - 1e-9) << known;
+    EXPECT_LE(proved.bound_mm, 0.0095) << known;
+    EXPECT_FALSE(proved.exhausted);
+  }
+}
+
 TEST(DepthSearch, SameBitsForOneAndTwoThreads) {
   Random random(7003);
   const Face face = random_face(random);

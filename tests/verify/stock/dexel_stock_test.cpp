@@ -34,6 +34,52 @@ TEST(DexelStock, AWholeBlockHasItsVolume) {
   EXPECT_NEAR(half.volume(), 3.0 * (35.0 - 17.5), 0.3) << "the triangle beyond x + y = 6 is gone";
 }
 
+/// A ball of triangles whose corners lie on it.
+TriangleMesh ball(const Vec3& centre, double radius, int around) {
+  TriangleMesh mesh;
+  const int rings = around / 2;
+  for (int i = 0; i <= rings; ++i)
+    for (int k = 0; k < around; ++k) {
+      const double up = kPi * i / rings, turn = 2.0 * kPi * k / around;
+      mesh.vertices.emplace_back(
+          centre + radius * Vec3(std::sin(up) * std::cos(turn), std::sin(up) * std::sin(turn), std::cos(up)));
+    }
+  for (int i = 0; i < rings; ++i)
+    for (int k = 0; k < around; ++k) {
+      const int a = i * around + k, b = i * around + (k + 1) % around, c = a + around, d = b + around;
+      mesh.triangles.push_back({a, c, d}), mesh.triangles.push_back({a, d, b});
+    }
+  return mesh;
+}
+
+TEST(DexelStock, ABodyOfTrianglesHasItsVolume) {
+  TriangleMesh body = ball({1.0, 2.0, 3.0}, 4.0, 96);
+  const double volume = 4.0 / 3.0 * kPi * 64.0;
+  const DexelStock stock(body, body.box(), 0.1);
+  EXPECT_NEAR(stock.volume(), volume, 0.005 * volume);
+  EXPECT_GT(stock.depth({1.0, 2.0, 3.0}), 0.0);
+  EXPECT_NEAR(stock.depth({1.0, 2.0, 6.5}), 0.5, 0.02);
+  // Inside out, and with another ball that overlaps it.
+  for (auto& t : body.triangles) std::swap(t[0], t[1]);
+  EXPECT_NEAR(DexelStock(body, body.box(), 0.1).volume(), stock.volume(), 1e-6 * volume);
+  const TriangleMesh more = ball({1.5, 2.0, 3.0}, 3.0, 96);
+  TriangleMesh both = ball({1.0, 2.0, 3.0}, 4.0, 96);
+  const int first = static_cast<int>(both.vertices.size());
+  both.vertices.insert(both.vertices.end(), more.vertices.begin(), more.vertices.end());
+  for (const auto& t : more.triangles) both.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  EXPECT_NEAR(DexelStock(both, both.box(), 0.1).volume(), stock.volume(), 1e-6 * volume);
+}
+
+TEST(DexelStock, ABodyMayHaveCracksButNoHole) {
+  TriangleMesh body = ball({0.0, 0.0, 0.0}, 4.0, 64);
+  const double volume = DexelStock(body, body.box(), 0.1).volume();
+  TriangleMesh cracked = body;
+  cracked.triangles.erase(cracked.triangles.begin() + 1000);
+  EXPECT_NEAR(DexelStock(cracked, cracked.box(), 0.1).volume(), volume, 0.01 * volume);
+  body.triangles.resize(body.triangles.size() / 2);
+  EXPECT_THROW((void)DexelStock(body, body.box(), 0.1), InputError);
+}
+
 TEST(DexelStock, ABlankHasItsVolumeWhereverItsPlanesLieBetweenLines) {
   // Planes along the lines of two directions, all of which are at one distance from them; one leans a little.
   for (const double off : {0.01, 0.2, 0.24, 0.26, 0.4, 0.49}) {

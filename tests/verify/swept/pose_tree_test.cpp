@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "flank/error.h"
 #include "verify/brute_force.h"
@@ -99,6 +101,63 @@ TEST(PoseTree, TheFirstCutIsBetweenTheStrips) {
   const int cut = tree.nodes[static_cast<std::size_t>(tree.nodes[0].second)].first_piece;
   EXPECT_EQ(tree.segment_of(cut - 1).strip, 0);
   EXPECT_EQ(tree.segment_of(cut).strip, 1);
+}
+
+/// Strips side by side, each a little beside the one before and back again: of many the pieces are grouped by where they are.
+Path side_by_side(std::uint64_t seed, int count) {
+  Random random(seed);
+  const Path first = brute::twisted_path(random, 9, 20.0, 0.4);
+  Path path;
+  for (int k = 0; k < count; ++k) {
+    Strip strip = first.strips[0];
+    if (k % 2 == 1) std::reverse(strip.poses.begin(), strip.poses.end());
+    for (Pose& pose : strip.poses) pose.tip += Vec3(0.1 * k, 0.05 * k, 0.02 * k);
+    path.strips.push_back(std::move(strip));
+  }
+  return path;
+}
+
+/// Calls visit(piece) for all leaves below a node.
+template <class Visit>
+void visit_leaves(const PoseTree& tree, int node, const Visit& visit) {
+  const PoseNode& n = tree.nodes[static_cast<std::size_t>(node)];
+  if (n.second < 0) {
+    visit(n.first_piece);
+    return;
+  }
+  visit_leaves(tree, node + 1, visit);
+  visit_leaves(tree, n.second, visit);
+}
+
+TEST(PoseTree, GroupsOfManyStripsHoldAllOfTheirPosesOnce) {
+  const PoseTree tree(side_by_side(11, 20), kLength, 0.3);
+  ASSERT_EQ(tree.nodes.size(), 2 * tree.pieces.size() - 1);
+  std::vector<int> seen(tree.pieces.size(), 0);
+  visit_leaves(tree, 0, [&](int piece) { ++seen[static_cast<std::size_t>(piece)]; });
+  EXPECT_TRUE(std::all_of(seen.begin(), seen.end(), [](int times) { return times == 1; }));
+  Random random(11);
+  for (int k = 0; k < static_cast<int>(tree.nodes.size()); ++k) {
+    const PoseNode& node = tree.nodes[static_cast<std::size_t>(k)];
+    visit_leaves(tree, k, [&](int piece) {
+      const Piece& p = tree.pieces[static_cast<std::size_t>(piece)];
+      const Pose pose = tree.segment_of(piece).at(random.uniform(p.low, p.high));
+      for (const double s : {0.0, 0.6 * kLength, kLength})
+        ASSERT_LE((pose.at(s) - node.tip - s * node.axis).norm(), node.reach + 1e-12);
+      ASSERT_LE(off_line(node, pose), node.bend + 1e-9);
+    });
+  }
+}
+
+TEST(PoseTree, GroupsOfManyStripsGetSmallSoonerThanTheirStrips) {
+  const PoseTree tree(side_by_side(12, 64), kLength, 0.3);
+  // Halved five times, a node of strips in their order would still hold two whole ones.
+  std::vector<int> level{0};
+  for (int n = 0; n < 5; ++n) {
+    std::vector<int> next;
+    for (const int k : level) next.push_back(k + 1), next.push_back(tree.nodes[static_cast<std::size_t>(k)].second);
+    level = std::move(next);
+  }
+  for (const int k : level) EXPECT_LT(tree.nodes[static_cast<std::size_t>(k)].reach, 0.5 * tree.nodes[0].reach);
 }
 
 TEST(PoseTree, PiecesMoveTheAxisByNoMoreThanWasAsked) {

@@ -58,6 +58,24 @@ TEST(SweptSearch, FindsTheLeastOverAllPieces) {
   }
 }
 
+TEST(SweptSearch, AmongManyStripsItFindsTheLeastOverAllPieces) {
+  Random random(31);
+  const Tool tool = brute::random_tool(random, 20.0);
+  Path path;
+  const Path first = brute::twisted_path(random, 5, 12.0, 0.4);
+  for (int k = 0; k < 14; ++k) {
+    path.strips.push_back(first.strips[0]);
+    for (Pose& pose : path.strips.back().poses) pose.tip += Vec3(0.3 * k, 0.1 * k, 0.0);
+  }
+  const Scene scene(tool, path, 0.5);
+  for (int i = 0; i < kPoints / 4; ++i) {
+    const Vec3 x = path.strips[7].poses[2].at(10.0) + brute::random_vector(random, 15.0);
+    const double least = scene.over_all_pieces(x);
+    ASSERT_NEAR(scene.run(x).f, least, kExactMm) << i;
+    EXPECT_EQ(scene.run(x, least - 1e-6).piece, -1) << "nothing is below";
+  }
+}
+
 TEST(SweptSearch, ThePlaceIsOneOfItsPieceAndHasTheValue) {
   const Scene scene = twisted(4);
   Random random(4);

@@ -61,10 +61,11 @@ std::vector<Body> bodies_of(const Tool& tool) {
 bool may_touch(ToolBody body, ObstacleRole role) { return body == ToolBody::kShank && role == ObstacleRole::kTarget; }
 
 /// A requirement of the user holds for every pair but shank and target, which touch where the flank does. Without one,
-/// the holder must not touch anything, and the others have the tolerance.
+/// the holder must not touch anything, and the others have the tolerance. What is left on the part is kept besides.
 double requirement(const ClearanceOptions& options, ToolBody body, ObstacleRole role) {
-  if (options.required_mm >= 0.0 && !may_touch(body, role)) return options.required_mm;
-  return body == ToolBody::kHolder || body == ToolBody::kAxis ? 0.0 : -options.tolerance_mm;
+  const double left = role == ObstacleRole::kFixture ? 0.0 : options.allowance_mm;
+  if (options.required_mm >= 0.0 && !may_touch(body, role)) return left + options.required_mm;
+  return left + (body == ToolBody::kHolder || body == ToolBody::kAxis ? 0.0 : -options.tolerance_mm);
 }
 
 ClearanceFigure measure(const Body& body, const Scene& scene, const std::vector<Obstacle>& obstacles,

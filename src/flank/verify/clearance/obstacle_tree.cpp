@@ -1,6 +1,7 @@
 #include "flank/verify/clearance/obstacle_tree.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace flank::internal::verify {
@@ -66,13 +67,16 @@ void ObstacleTree::enclose(const TriangleMesh& mesh, Node& node) const {
   if (sum.norm() > 0.0) node.normal = sum.normalized();
   node.low = 1e300;
   node.high = -1e300;
+  double farthest = 0.0;  // squared: one root a node, not one a corner
   for (int k = node.first; k < node.end; ++k) {
     for (const Vec3& x : corners_of(mesh, numbers_[static_cast<std::size_t>(k)])) {
-      node.sphere.radius = std::max(node.sphere.radius, (x - node.sphere.center).norm() * kOutwards);
-      node.low = std::min(node.low, node.normal.dot(x));
-      node.high = std::max(node.high, node.normal.dot(x));
+      farthest = std::max(farthest, (x - node.sphere.center).squaredNorm());
+      const double along = node.normal.dot(x);
+      node.low = std::min(node.low, along);
+      node.high = std::max(node.high, along);
     }
   }
+  node.sphere.radius = std::sqrt(farthest) * kOutwards;
   node.flat = node.high - node.low < kFlat * node.sphere.radius;
 }
 

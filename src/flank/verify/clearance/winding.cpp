@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 namespace flank::internal::verify {
 namespace {
@@ -27,21 +28,30 @@ Winding::Winding(const TriangleMesh& mesh) : Winding(std::make_shared<const Obst
 
 Winding::Winding(std::shared_ptr<const ObstacleTree> tree) : tree_(std::move(tree)) {
   if (tree_->empty()) return;
-  areas_.reserve(static_cast<std::size_t>(tree_->node_count()));
-  for (int i = 0; i < tree_->node_count(); ++i) {
-    const ObstacleTree::Node& node = tree_->node(i);
-    Area area;
-    double weight = 0.0;
-    for (int k = node.first; k < node.end; ++k) {
-      const std::array<Vec3, 3> v = tree_->corners(k);
-      const Vec3 vector = 0.5 * (v[1] - v[0]).cross(v[2] - v[0]);
+  const auto count = static_cast<std::size_t>(tree_->node_count());
+  areas_.resize(count);
+  std::vector<double> weights(count, 0.0);
+  // A node comes before both of its parts: from the last on, these are known.
+  for (std::size_t i = count; i-- > 0;) {
+    const ObstacleTree::Node& node = tree_->node(static_cast<int>(i));
+    Area& area = areas_[i];
+    const auto add = [&](const Vec3& vector, const Vec3& center, double weight) {
       area.vector += vector;
-      area.center += vector.norm() * (v[0] + v[1] + v[2]) / 3.0;
-      weight += vector.norm();
+      area.center += weight * center;
+      weights[i] += weight;
+    };
+    if (node.second < 0) {
+      for (int k = node.first; k < node.end; ++k) {
+        const std::array<Vec3, 3> v = tree_->corners(k);
+        const Vec3 vector = 0.5 * (v[1] - v[0]).cross(v[2] - v[0]);
+        add(vector, (v[0] + v[1] + v[2]) / 3.0, vector.norm());
+      }
+    } else {
+      for (const std::size_t part : {i + 1, static_cast<std::size_t>(node.second)})
+        add(areas_[part].vector, areas_[part].center, weights[part]);
     }
-    area.center = weight > 0.0 ? Vec3(area.center / weight) : node.sphere.center;
+    area.center = weights[i] > 0.0 ? Vec3(area.center / weights[i]) : node.sphere.center;
     area.radius = (area.center - node.sphere.center).norm() + node.sphere.radius;
-    areas_.push_back(area);
   }
 }
 

@@ -11,6 +11,7 @@ namespace flank::internal::verify {
 namespace {
 
 constexpr std::size_t kBlock = 128;       ///< cells per task. Fixed, so that the number of threads changes nothing
+constexpr std::size_t kLot = 4096;        ///< cells of samples that are cut together
 constexpr double kRounding = 1.0 + 1e-9;  ///< sums of areas are not too small by more
 constexpr int kDeepest = 8;               ///< times that the cell of a sample is cut at most
 
@@ -34,11 +35,28 @@ class CoverSearch {
 
   ProvedCover run(std::span<const SweptDistance> distances) {
     out_.open_mm2.assign(samples_.points.size(), 0.0);
-    std::vector<Open> open = begin(distances);
+    const std::vector<Open> all = begin(distances);
+    // Some after the other: cells of a whole face would not fit into memory, and a finer look at some of them is worth more than none
+    // at all of them. What one lot does not use the next may.
+    for (std::size_t first = 0; first < all.size(); first += kLot) {
+      const std::size_t end = std::min(all.size(), first + kLot);
+      const double share = static_cast<double>(end) / static_cast<double>(all.size());
+      search({all.begin() + static_cast<std::ptrdiff_t>(first), all.begin() + static_cast<std::ptrdiff_t>(end)},
+             limits_.gap_mm2 * static_cast<double>(end - first) / static_cast<double>(all.size()),
+             static_cast<std::size_t>(share * static_cast<double>(limits_.evaluations)));
+    }
+    for (std::size_t i = 0; i < out_.open_mm2.size(); ++i)
+      out_.open_mm2[i] = std::min(out_.open_mm2[i] * kRounding, samples_.areas[i]);
+    return std::move(out_);
+  }
+
+ private:
+  /// Cuts cells until no more than `gap_mm2` of them is open, or `evaluations` are reached, those before them included.
+  void search(std::vector<Open> open, double gap_mm2, std::size_t evaluations) {
     for (int depth = 0; !open.empty(); ++depth) {
       stop_here();
-      const bool enough = settled(open);
-      const std::size_t most = std::min(limits_.cells, limits_.evaluations - out_.evaluations);
+      const bool enough = settled(open, gap_mm2);
+      const std::size_t most = std::min(limits_.cells, evaluations - std::min(evaluations, out_.evaluations));
       std::vector<Open> parts;
       if (depth < kDeepest && !enough) parts = cut(open, most);
       if (parts.empty() || parts.size() > most) {
@@ -48,12 +66,8 @@ class CoverSearch {
       open = {};  // a cell takes 150 bytes, and there may be a million
       open = look(std::move(parts));
     }
-    for (std::size_t i = 0; i < out_.open_mm2.size(); ++i)
-      out_.open_mm2[i] = std::min(out_.open_mm2[i] * kRounding, samples_.areas[i]);
-    return std::move(out_);
   }
 
- private:
   struct Block {
     std::vector<Open> open;
     std::vector<Lost> lost;
@@ -96,14 +110,22 @@ class CoverSearch {
     });
   }
 
-  /// Whether the ball leaves no place of the cell farther away than the tolerance: a distance is convex, so the corners
-  /// of a hull tell.
+  /// Whether a ball, as it goes from one pose to the next, leaves no place of the cell farther away than the tolerance: the distance from
+  /// its way is convex, so the corners of a hull tell.
   [[nodiscard]] bool near_all_of(const Open& open, Block& block) const {
     if (!shape_.hull(open.cell, block.hull)) return false;
     const SweptVolume::Ball ball = volume_.ball(open.near);
-    const double most = ball.radius + limits_.tolerance_mm;
-    return std::all_of(block.hull.begin(), block.hull.end(),
-                       [&](const Vec3& p) { return (p - ball.center).norm() <= most; });
+    const double reach = ball.radius + limits_.tolerance_mm;
+    if (std::all_of(block.hull.begin(), block.hull.end(),
+                    [&](const Vec3& p) { return (p - ball.center).norm() <= reach; }))
+      return true;
+    const SweptVolume::BallWay way = volume_.ball_way(open.near);
+    const double most = reach - way.off, squared = way.along.squaredNorm();
+    return std::all_of(block.hull.begin(), block.hull.end(), [&](const Vec3& p) {
+      const Vec3 d = p - way.from;
+      const double t = squared > 0.0 ? std::clamp(d.dot(way.along) / squared, 0.0, 1.0) : 0.0;
+      return (d - t * way.along).norm() <= most;
+    });
   }
 
   /// Counted, not guessed, because a long cell is cut in two, a square one in four; ends where it has more than `most`.
@@ -127,8 +149,9 @@ class CoverSearch {
       ++block.evaluations;
       const double far = limits_.tolerance_mm + probe.reach;
       part.near = volume_.distance_from(probe.point, part.near);
-      // Descent may have missed the best ball.
-      if (part.near.f > far) {
+      // Descent keeps to the pass of the cell that this is a part of, and the one beside it may be nearer by far: what does not even touch
+      // the middle settles no part of the cell, however small.
+      if (part.near.f > limits_.tolerance_mm) {
         const SweptDistance best = volume_.distance(probe.point, far);
         if (best.strip < 0 || best.f > far) {
           block.lost.push_back({part.sample, shape_.area_bound(part.cell)});
@@ -141,11 +164,11 @@ class CoverSearch {
   }
 
   /// Whether the cells' area is too small to matter. Mostly a few of them tell that it is not.
-  [[nodiscard]] bool settled(const std::vector<Open>& open) const {
+  [[nodiscard]] bool settled(const std::vector<Open>& open, double gap_mm2) const {
     double sum = 0.0;
     return std::all_of(open.begin(), open.end(), [&](const Open& o) {
       sum += std::min(shape_.area_bound(o.cell), samples_.areas[o.sample]);
-      return sum <= limits_.gap_mm2;
+      return sum <= gap_mm2;
     });
   }
 

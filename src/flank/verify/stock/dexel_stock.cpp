@@ -6,12 +6,15 @@
 
 #include "flank/base/parallel.h"
 #include "flank/error.h"
+#include "flank/verify/stock/mesh_lines.h"
 #include "flank/verify/stock/row_cut.h"
 
 namespace flank::internal::verify {
 namespace {
 
 constexpr double kMostLines = 1e9;
+/// Of all lines: through cracks of a mesh that is closed.
+constexpr double kMostOpen = 0.01;
 
 /// The nearest end of a line's material: where it is, and whether material lies above it.
 struct LineEnd {
@@ -139,6 +142,15 @@ DexelStock::DexelStock(const Box3& box, const std::vector<HalfSpace>& planes, do
     parallel_for(static_cast<std::size_t>(field.rows()), [&](std::size_t row) {
       for (int line = 0; line < field.width(); ++line) cut_by_planes(field, planes, static_cast<int>(row), line);
     });
+  }
+}
+
+DexelStock::DexelStock(const TriangleMesh& body, const Box3& box, double cell_mm)
+    : DexelStock(box, std::vector<HalfSpace>(), cell_mm) {
+  for (DexelField& field : fields_) {
+    const std::size_t open = keep_inside(field, body);
+    if (static_cast<double>(open) > kMostOpen * field.rows() * field.width())
+      throw InputError("the blank is not closed; expected a body all round");
   }
 }
 

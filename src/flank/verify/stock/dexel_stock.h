@@ -25,6 +25,9 @@ class DexelStock {
   /// The part of the box that all planes hold. Throws UsageError for a cell that is not > 0, and
   /// InputError for an empty box or one of more than a thousand million cells across its lines.
   DexelStock(const Box3& box, const std::vector<HalfSpace>& planes, double cell_mm);
+  /// What a closed mesh holds of the box. Throws UsageError and InputError as above, and InputError for a mesh that is not closed: cracks between faces are, but
+  /// a face that is missing is not.
+  DexelStock(const TriangleMesh& body, const Box3& box, double cell_mm);
 
   /// Takes the tool at a pose away; returns the volume that was material, mm^3: the mean of the three directions.
   double cut(const ToolSolid& tool, const Pose& pose);

@@ -1,6 +1,7 @@
 #include "flank/verify/swept/pose_tree.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -15,6 +16,11 @@ constexpr int kMaxPieces = 4096;         ///< of one segment: bounds memory if a
 /// Cosine of the largest turn between two poses, 172 degrees: beyond it the straight join of the axis vectors passes
 /// near zero, and what the controller would do is anybody's guess.
 constexpr double kLeastCosine = -0.99;
+/// A path of more strips is grouped by where its poses are: strips side by side are near to each other all along, and their order
+/// says nothing of that.
+constexpr int kFewStrips = 8;
+/// Parts of a strip that are grouped reach so many times as far as a piece may: within them the order says most.
+constexpr double kChunkReaches = 10.0;
 /// Least |w|^2 that a bound divides by; kLeastCosine keeps it above 0.005.
 constexpr double kLeastSquaredAxis = 1e-3;
 
@@ -64,6 +70,83 @@ class Builder {
     }
   }
 
+  /// All nodes.
+  void add_nodes() {
+    const int count = static_cast<int>(tree_.pieces.size());
+    if (segment(count - 1).strip < kFewStrips) {
+      add_node(0, count);
+      return;
+    }
+    for (int first = 0, last = 0; first < count; first = last) {
+      while (last < count && segment(last).strip == segment(first).strip) ++last;
+      add_chunks(first, last);
+    }
+    add_group(chunks_.begin(), chunks_.end());
+  }
+
+ private:
+  /// Pieces of a strip that follow each other, and where tip and upper end of their axes are.
+  struct Chunk {
+    int first = 0, last = 0;
+    std::array<double, 6> place{};
+  };
+  using Chunks = std::vector<Chunk>::iterator;
+
+  void add_chunks(int first, int last) {
+    const PoseNode node = enclose(first, last);
+    if (last - first > 1 && node.reach > kChunkReaches * tree_.reach_limit) {
+      const int middle = (first + last) / 2;
+      add_chunks(first, middle);
+      add_chunks(middle, last);
+      return;
+    }
+    const Vec3 high = node.tip + length_ * node.axis;
+    chunks_.push_back({first, last, {node.tip.x(), node.tip.y(), node.tip.z(), high.x(), high.y(), high.z()}});
+  }
+
+  /// Node over chunks, halved where they lie farthest apart; returns its index.
+  int add_group(Chunks begin, Chunks end) {
+    if (end - begin == 1) return add_node(begin->first, begin->last);
+    const int index = static_cast<int>(tree_.nodes.size());
+    tree_.nodes.push_back(enclose(begin, end));
+    const std::size_t k = widest(begin, end);
+    const Chunks middle = begin + (end - begin) / 2;
+    std::nth_element(begin, middle, end, [k](const Chunk& a, const Chunk& b) {
+      return a.place[k] != b.place[k] ? a.place[k] < b.place[k] : a.first < b.first;
+    });
+    add_group(begin, middle);
+    const int second = add_group(middle, end);
+    tree_.nodes[static_cast<std::size_t>(index)].second = second;
+    return index;
+  }
+
+  [[nodiscard]] static std::size_t widest(Chunks begin, Chunks end) {
+    std::size_t best = 0;
+    double most = -1.0;
+    for (std::size_t k = 0; k < 6; ++k) {
+      const auto [low, high] =
+          std::minmax_element(begin, end, [k](const Chunk& a, const Chunk& b) { return a.place[k] < b.place[k]; });
+      if (const double width = high->place[k] - low->place[k]; width > most) most = width, best = k;
+    }
+    return best;
+  }
+
+  /// Bounds for poses that do not follow each other: no motion of theirs is linear.
+  [[nodiscard]] PoseNode enclose(Chunks begin, Chunks end) const {
+    Box3 tips, highs;
+    for (Chunks c = begin; c != end; ++c) {
+      tips.add({c->place[0], c->place[1], c->place[2]});
+      highs.add({c->place[3], c->place[4], c->place[5]});
+    }
+    PoseNode node;
+    node.tip = tips.center();
+    const Vec3 axis = highs.center() - node.tip;
+    node.axis = axis.norm() > 1e-3 * length_ ? Vec3(axis.normalized()) : Vec3(Vec3::UnitZ());
+    for (Chunks c = begin; c != end; ++c)
+      for (int k = c->first; k < c->last; ++k) widen(node, k);
+    return node;
+  }
+
   /// Node over pieces [first, last); returns its index.
   int add_node(int first, int last) {
     const int index = static_cast<int>(tree_.nodes.size());
@@ -82,7 +165,6 @@ class Builder {
     return index;
   }
 
- private:
   [[nodiscard]] const Piece& piece(int k) const { return tree_.pieces[static_cast<std::size_t>(k)]; }
   [[nodiscard]] const Segment& segment(int k) const {
     return tree_.segments[static_cast<std::size_t>(piece(k).segment)];
@@ -101,12 +183,15 @@ class Builder {
     node.half_tip = 0.5 * (end.tip - begin.tip);
     node.half_turn = 0.5 * (end.axis - begin.axis);
     node.turn = node.half_turn.norm();
-    for (int k = first; k < last; ++k) {
-      const Pose p = segment(k).at(piece(k).low), q = segment(k).at(piece(k).high);
-      const double slack = turning_slack(segment(k), p, q);
-      for (const Pose& at : {p, q}) widen(node, at, slack);
-    }
+    for (int k = first; k < last; ++k) widen(node, k);
     return node;
+  }
+
+  /// Makes the node's bounds hold for a piece.
+  void widen(PoseNode& node, int k) const {
+    const Pose p = segment(k).at(piece(k).low), q = segment(k).at(piece(k).high);
+    const double slack = turning_slack(segment(k), p, q);
+    for (const Pose& at : {p, q}) widen(node, at, slack);
   }
 
   /// Makes the node's bounds hold for a pose, and `slack` beyond it. Between two poses the deviation is linear but for
@@ -143,6 +228,7 @@ class Builder {
 
   PoseTree& tree_;
   double length_;
+  std::vector<Chunk> chunks_;
 };
 
 }  // namespace
@@ -155,7 +241,7 @@ PoseTree::PoseTree(const Path& path, double axis_length_mm, double reach_mm) {
   builder.add_pieces(reach_mm);
   if (pieces.empty()) return;
   nodes.reserve(2 * pieces.size());
-  builder.add_node(0, static_cast<int>(pieces.size()));
+  builder.add_nodes();
 }
 
 }  // namespace flank::internal::verify

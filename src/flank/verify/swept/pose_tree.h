@@ -16,7 +16,7 @@ struct PoseNode {
   Vec3 half_tip = Vec3::Zero(), half_turn = Vec3::Zero();
   double bend = 0.0, reach = 0.0, turn = 0.0;  ///< turn = |half_turn|
   int second = -1;                     ///< index of the second child (the first one follows its parent); -1: a leaf
-  int first_piece = 0, end_piece = 0;  ///< the node's pieces
+  int first_piece = 0, end_piece = 0;  ///< the node's pieces; none of a group of parts of several strips
 };
 
 /// Part [low, high] of a segment: short enough for its minimum to be found by descent.
@@ -25,7 +25,8 @@ struct Piece {
   double low = 0.0, high = 1.0;
 };
 
-/// Immutable after construction. A strip of one pose is one segment without length; links between strips are in no
+/// Immutable after construction. The pieces of a few strips are halved in their order, those of many by where they are: a group's
+/// bounds have no linear motion. A strip of one pose is one segment without length; links between strips are in no
 /// segment, since nothing is cut along them.
 struct PoseTree {
   std::vector<Segment> segments;  ///< in the order of strips and poses
