@@ -13,7 +13,7 @@ bench=(libbenchmark-dev libembree-dev libfcl-dev)
 dev=(clang-format clang-tidy)
 # What Clang instruments compiles faster than what GCC does, and runs twice as fast.
 sanitizers=(clang libclang-rt-14-dev lld llvm)
-clients=(chromium freecad-python3 linuxcnc-uspace slurm-wlm munge coinor-cbc)
+clients=(chromium freecad-python3 xvfb xauth linuxcnc-uspace slurm-wlm munge coinor-cbc)
 # Node.js and npm bundle the report page; a newer one from elsewhere will do, and then the packages would get in its way.
 command -v node > /dev/null || build+=(nodejs)
 command -v npm > /dev/null || build+=(npm)

@@ -15,7 +15,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 REPOSITORY_FILES = ("README.md", "ARCHITECTURE.md", "GLOSSARY.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md")
 # The order of the side bar.
 CONTENTS = [
-    ("Tutorials", ["tutorials/" + name for name in ("first-blade", "studio", "reading-the-report", "given-tool", "beside-a-hub", "a-cavity", "to-the-machine",
+    ("Tutorials", ["tutorials/" + name for name in ("first-blade", "studio", "freecad", "reading-the-report", "given-tool", "beside-a-hub", "a-cavity", "to-the-machine",
                                                     "from-python", "what-it-cannot-do")]),
     ("Using it", ["root/README", "python", "python-api", "library", "api", "results", "comparison", "packaging"]),
     ("How it works", ["MATH", "root/ARCHITECTURE", "root/GLOSSARY", "reliability"]),

@@ -4,7 +4,8 @@
 usage: results.py [--check]   (--check changes nothing and ends with 1 if a table is not the one of its file)
 
 A table stands between `<!-- results: NAME -->` and `<!-- end -->`; NAME.json has its rows. A file has either "columns" and rows of cells, or rows
-of figures by name, of which a table shows the columns below that any row has.
+of figures by name, of which a table shows those in "show", else all below that any row has. `<!-- results: trust -->` is made from all files
+that bench/run_results.py has measured; `<!-- usable: NAME -->` stands before how many rows of a file are usable.
 """
 
 import json
@@ -16,6 +17,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 RESULTS = ROOT / "bench/results"
 DOCUMENTS = ("docs/results.md", "README.md")
 TABLE = re.compile(r"(<!-- results: ([\w-]+) -->\n).*?(<!-- end -->)", re.DOTALL)
+COUNT = re.compile(r"(<!-- usable: ([\w-]+) -->).*?(<!-- end -->)")
+MOST_NAMED = 5  # rows that fail, in the table of all sets
 
 
 def finished(row):
@@ -29,35 +32,95 @@ def gouge(row):
     return "; ".join(row[key] for key in ("gouge", "gouge_others") if row.get(key))
 
 
-COLUMNS = (
-    ("part", lambda row: row.get("part", "")),
-    ("request", lambda row: row.get("request", "")),
-    ("finished, %", finished),
-    ("gouge, mm", gouge),
-    ("L:D", lambda row: row.get("ld", "")),
-    ("passes", lambda row: row.get("passes", "")),
-    ("CPU s", lambda row: row.get("cpu_s", "")),
-    ("verdict", lambda row: row.get("verdict", "")),
-    ("repeatable by", lambda row: row.get("by", "")),
-)
+def plain(key):
+    return lambda row: str(row.get(key, ""))
+
+
+COLUMNS = {
+    "part": ("part", plain("part")),
+    "request": ("request", plain("request")),
+    "width": ("width, mm", plain("width")),
+    "reachable": ("accessible, %", plain("reachable")),
+    "finished": ("finished, %", finished),
+    "curve": ("L:D: finished, %", plain("curve")),
+    "gouge": ("gouge, mm", gouge),
+    "excess": ("excess, mm", plain("excess")),
+    "ld": ("L:D", plain("ld")),
+    "passes": ("passes", plain("passes")),
+    "turn": ("turn, degrees", plain("turn")),
+    "layers": ("layers", plain("layers")),
+    "cycles": ("cycles", plain("cycles")),
+    "moves": ("moves, m", plain("moves")),
+    "engagement": ("engagement, degrees", plain("engagement")),
+    "volume": ("removed, cm^3", plain("volume")),
+    "cpu_s": ("CPU s", plain("cpu_s")),
+    "verdict": ("verdict", plain("verdict")),
+    "by": ("repeatable by", plain("by")),
+}
+
+
+def load(name):
+    return json.loads((RESULTS / f"{name}.json").read_text(encoding="utf-8"))
+
+
+def good(row):
+    """Whether the result is usable: of several commands that of each."""
+    return all(verdict in ("usable", "meets") for verdict in row["verdict"].split(", "))
 
 
 def cells(results):
     """Header and rows of a table."""
     if "columns" in results:
         return results["columns"], results["rows"]
-    shown = [(name, value) for name, value in COLUMNS if any(value(row) for row in results["rows"])]
-    return [name for name, _ in shown], [[value(row) for _, value in shown] for row in results["rows"]]
+    wanted = results["show"].split() if "show" in results else COLUMNS
+    rows = [row for row in results["rows"] if "run" not in row or "verdict" in row]  # what was not measured yet is not shown
+    shown = [COLUMNS[key] for key in wanted if any(COLUMNS[key][1](row) for row in rows)]
+    return [name for name, _ in shown], [[value(row) for _, value in shown] for row in rows]
+
+
+def lines_of(table):
+    return "".join("|" + "|".join(f" {cell} " if cell != "---" else cell for cell in line) + "|\n" for line in table)
+
+
+def measured_rows(name):
+    return [row for row in load(name)["rows"] if isinstance(row, dict) and "run" in row and "verdict" in row]
+
+
+def failure(row):
+    """A sentence: which row fails, and the first of its reasons without its details."""
+    why = next(verdict for verdict in row["verdict"].split(", ") if not good({"verdict": verdict}))
+    told = f"{row['part']}, {row['request']}: {re.split('[;:] ', why.removeprefix('no: ').removeprefix('meets the request but '))[0]}."
+    return told[0].upper() + told[1:]
+
+
+def trust():
+    """How many rows of each measured file are usable, and which are not."""
+    lines = [["set", "rows", "usable", "what fails, and why"], ["---"] * 4]
+    for file in sorted(RESULTS.glob("*.json")):
+        rows = measured_rows(file.stem) if file.stem != "first-page" else []  # the README's are rows of other sets, too
+        bad = [failure(row) for row in rows if not good(row)]
+        more = [f"And {len(bad) - MOST_NAMED} more, below."] if len(bad) > MOST_NAMED else []
+        if rows:
+            lines.append([load(file.stem)["title"], str(len(rows)), str(len(rows) - len(bad)), " ".join(bad[:MOST_NAMED] + more)])
+    return lines_of(lines)
+
+
+def usable(name):
+    rows = measured_rows(name)
+    return f"{sum(map(good, rows))} of {len(rows)}"
 
 
 def table(name):
-    results = json.loads((RESULTS / f"{name}.json").read_text(encoding="utf-8"))
+    if name == "trust":
+        return trust()
+    results = load(name)
     header, rows = cells(results)
-    lines = [header, ["---"] * len(header), *rows]
+    if "source" not in results:
+        return "Not measured yet.\n"
     source = f" at {results['commit']}" if results["source"] == "measured" else f", {results['source']}"
     command = f"`{results['command']}`" if "--" in results["command"] else results["command"]
     told = f"Measured {results['measured']}{source}: {command}; {results['machine']}.\n\n"
-    return told + "".join("|" + "|".join(f" {cell} " if cell != "---" else cell for cell in line) + "|\n" for line in lines)
+    return told + lines_of([header, ["---"] * len(header), *rows])
 
 
 def main():
@@ -66,6 +129,7 @@ def main():
         file = ROOT / name
         text = file.read_text(encoding="utf-8")
         rendered = TABLE.sub(lambda match: match[1] + table(match[2]) + match[3], text)
+        rendered = COUNT.sub(lambda match: match[1] + usable(match[2]) + match[3], rendered)
         if rendered != text:
             stale.append(name)
             if "--check" not in sys.argv[1:]:

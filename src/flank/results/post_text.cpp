@@ -62,7 +62,7 @@ std::string post_text(const PostOutcome& o) {
     text += fmt::format("{:<2}{:<4} {:>11.3f} {:>11.3f} {:>11.3f} {:>14.2f}\n", j.joint, j.unit, j.low, j.high, j.speed,
                         j.acceleration);
   if (o.operations.size() > 1) text += operations_text(o.operations);
-  text += fmt::format("closest to the pole {:.2f} degrees; time {}, of which cutting {}\n", o.least_tilt_deg,
+  text += fmt::format("never nearer to the pole than {:.2f} degrees; time {}, of which cutting {}\n", o.least_tilt_deg,
                       minutes_text(o.minutes), minutes_text(o.cutting_minutes));
   for (const std::string& note : o.notes) text += "note: " + note + "\n";
   text += reason_lines(o.acceptance);

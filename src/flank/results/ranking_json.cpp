@@ -15,7 +15,7 @@ std::string row_of(const RankedChoice& tool, std::size_t rank, std::size_t width
     return fmt::format("    -  {:<{}}  {}\n", tool.tool, width, tool.reason.empty() ? "not tried" : tool.reason);
   return fmt::format("  {:>3}  {:<{}}  {:>6.2f} %  {:>6.2f} %  {:>6.2f} %  {:>6}  {:>7.2f}{}\n", rank, tool.tool, width,
                      100.0 * tool.coverage, 100.0 * tool.reachable_share, 100.0 * tool.coverage_reachable, tool.strips,
-                     tool.minutes, tool.stage == "full" ? "" : "  as grown");
+                     tool.minutes, tool.stage == "full" ? "" : "  quick plan");
 }
 
 }  // namespace
@@ -67,8 +67,8 @@ std::string ranking_table(const Ranking& ranking) {
   text += fmt::format("       {:<{}}  finished accessible  of that  passes  minutes\n", "tool", width);
   for (std::size_t k = 0; k < ranking.tools.size(); ++k) text += row_of(ranking.tools[k], k + 1, width);
   text += fmt::format(
-      "              minutes: {:.4g} mm/min along the passes, {:.4g} mm/min between them; as grown: passes not "
-      "smoothed, because other tools were better\n",
+      "              minutes: {:.4g} mm/min along the passes, {:.4g} mm/min between them; quick plan: "
+      "passes not smoothed, because other tools were better\n",
       ranking.feed_mm_min, ranking.rapid_mm_min);
   return text;
 }

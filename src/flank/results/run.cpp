@@ -43,9 +43,9 @@ std::string error_lines(const Result& result) {
   text += fmt::format("  finished    {:.2f} % of the whole face within {} mm\n", 100.0 * v.coverage, v.tolerance_mm);
   text += "  " + reach_text(v) + "\n";
   text += fmt::format("  gouge       {:.4f} mm\n", v.overcut_mm);
-  text += fmt::format("  excess      {:.4f} mm of material in the finished area, {:.4f} mm anywhere on the face\n",
+  text += fmt::format("  excess      {:.4f} mm of material where the tool passes, {:.4f} mm anywhere on the face\n",
                       v.undercut_covered_mm, v.undercut_mm);
-  text += fmt::format("  rms error   {:.4f} mm over the finished area\n", v.rms_mm);
+  text += fmt::format("  rms error   {:.4f} mm where the tool passes\n", v.rms_mm);
   if (std::any_of(v.faces.begin(), v.faces.end(), [](const FaceVerdict& face) { return !face.target; }))
     text += fmt::format("  other faces {:.4f} mm deepest gouge\n", v.gouge_mm);
   text += "  checked     " + depth_text(v) + "\n";
@@ -90,6 +90,7 @@ void add_verdict(const Result& result, nlohmann::ordered_json& json) {
   };
   if (!judged) json["judged"] = false;
   json["tolerance"] = v.tolerance_mm;
+  if (v.allowance_mm > 0.0) json["allowance"] = v.allowance_mm;
   figure("coverage", v.coverage);
   figure("reachable_share", v.reachable_share);
   figure("coverage_reachable", v.coverage_reachable);
@@ -185,6 +186,7 @@ std::string summary_text(const Result& result) {
   // What was asked for stands first: a verdict is about that and nothing else.
   text += fmt::format("  request     {}\n", fmt::join(asked_for(result.job), ", "));
   text += tool_line(result.tool) + stiffness_line(result.tool);
+  if (const std::string left = allowance_text(result.verify); !left.empty()) text += "  allowance   " + left + "\n";
   text += result.path.pose_count() > 0 ? error_lines(result) : "  path        no pass: nothing is machined\n";
   text += sheet_side_text(result.verify) + clearance_text(result.verify.clearance);
   if (result.verify.stock) text += stock_text(*result.verify.stock);

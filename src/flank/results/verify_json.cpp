@@ -212,6 +212,7 @@ VerifyReport report_from(const Json& j) {
   VerifyReport r;
   r.verdict = verdict_from(j.at("verdict").get<std::string>());
   r.tolerance_mm = to_number(j.at("tolerance_mm"));
+  if (j.contains("allowance_mm")) r.allowance_mm = to_number(j.at("allowance_mm"));
   r.coverage = to_number(j.at("coverage"));
   r.reachable_share = to_number(j.at("reachable_share"));
   r.coverage_reachable = to_number(j.at("coverage_reachable"));
@@ -309,6 +310,7 @@ std::string verify_to_json(const VerifyReport& r, const Acceptance& acceptance) 
             {"faces", Json::array()},
             {"worst_places", Json::array()},
             {"histogram", {{"edges_mm", Json::array()}, {"area_mm2", Json::array()}}}};
+  if (r.allowance_mm > 0.0) j["allowance_mm"] = number(r.allowance_mm);
   if (r.coverage_bound && r.coverage_reachable_bound) {
     j["coverage_bound"] = number(*r.coverage_bound);
     j["coverage_reachable_bound"] = number(*r.coverage_reachable_bound);

@@ -22,6 +22,12 @@ const char* role_words(ObstacleRole role) {
 
 }  // namespace
 
+std::string allowance_text(const VerifyReport& report) {
+  if (!(report.allowance_mm > 0.0)) return "";
+  return fmt::format("{:g} mm left on purpose: gouge and excess are measured from the faces moved out by that",
+                     report.allowance_mm);
+}
+
 std::string reach_text(const VerifyReport& report) {
   std::string text = fmt::format(
       "accessible  {:.2f} % of the machined face (to a ball of radius {:.4g} mm); {:.2f} % of that is finished",
@@ -127,6 +133,7 @@ std::string verify_text(const Verification& outcome) {
   text += sheet_side_text(v) + clearance_text(v.clearance);
   if (v.stock) text += stock_text(*v.stock);
   for (const std::string& note : outcome.notes) text += "note: " + note + "\n";
+  if (const std::string left = allowance_text(v); !left.empty()) text += left + "\n";
   text += reach_text(v) + "\n";
   text += depth_text(v) + "\n";
   text += fmt::format("finished {:.2f} % of the whole face within {} mm, gouge {:.4f} mm: {}\n", 100.0 * v.coverage,

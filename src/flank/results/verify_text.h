@@ -7,6 +7,9 @@
 
 namespace flank::internal {
 
+/// "0.2 mm left on purpose: ..."; empty where nothing is.
+[[nodiscard]] std::string allowance_text(const VerifyReport& report);
+
 /// "reachable   93.10 % of the target (ball of radius 1.5 mm), of which 99.20 % is covered".
 [[nodiscard]] std::string reach_text(const VerifyReport& report);
 

@@ -15,6 +15,7 @@
 #include "flank/results/view_gaps.h"
 #include "flank/setup/targets.h"
 #include "flank/surface/ball_touch.h"
+#include "flank/tool/grown.h"
 
 namespace flank::internal {
 namespace {
@@ -115,7 +116,7 @@ void add_obstacles(const Setup& setup, const std::set<std::string>& struck, View
 
 void colour_faces(View& view, const Path& path, const std::set<std::string>& entered) {
   if (path.pose_count() == 0) return;  // a volume without poses has no distance
-  const SweptVolume volume(view.tool, path);
+  const SweptVolume volume(view.allowance_mm > 0.0 ? grown(view.tool, view.allowance_mm) : view.tool, path);
   for (ViewFace& body : view.bodies) {
     if (!body.target && !entered.contains(body.face)) continue;
     FaceSamples samples;
@@ -168,6 +169,7 @@ View make_view(const PlanJob& job, const Setup& setup, const Tool& tool, const P
         view.part = machined(plan).file;
         view.faces = machined(plan).target_text();
         view.tolerance_mm = setup.tolerance_mm;
+        view.allowance_mm = setup.allowance_mm;
         view.least_coverage = plan.judge.least_coverage;
       },
       shown);

@@ -42,6 +42,7 @@ struct View {
   std::string part;     ///< file name without folder
   std::string command;  ///< that asked for this, with file names without folders
   std::string faces;
+  double allowance_mm = 0.0;  ///< left on purpose: distances are from the faces moved out by this
   double tolerance_mm = 0.0, least_coverage = 0.0;
   std::vector<ViewFace> bodies;    ///< every face of the part, in the part's order
   std::vector<ViewFace> fixtures;  ///< every face of the fixtures; `face` is the obstacle's name, "vice.stl F6"
