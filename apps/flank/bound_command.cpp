@@ -39,6 +39,7 @@ Subcommand add_bound(CLI::App& parser) {
       "cylinder:radius=5 --axis-length 30 --tolerance 0.02\n"
       "Exit 1: some of a face is proved to be out of the tool's reach, or the run was stopped.");
   const auto run = [job, folder](const CommonOptions& common) {
+    if (!folder->empty()) require_inputs_kept(*job, *folder);
     if (job->map) return run_map(*job, *folder, common);
     const BoundResult result = run_bound(*job, terminal_progress(common));
     if (!folder->empty()) write_bound(result, *folder);

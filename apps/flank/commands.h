@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "flank/progress.h"
 #include "flank/run.h"
@@ -14,6 +15,7 @@ namespace flank::cli {
 
 /// Options that every command shares.
 struct CommonOptions {
+  std::vector<std::string> words;  ///< as they were typed, for a command that hands them on
   bool json = false;
   bool quiet = false;
   std::string progress = "line";  ///< or "json": a line of JSON for every report, also if quiet

@@ -1,75 +1,65 @@
-// studio.
+// studio: the command becomes the program of the server, which alone links what opens a connection. All other commands start without it.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
-#include <memory>
-#include <thread>
+#include <string>
+#include <vector>
 
 #include "commands.h"
 #include "flank/error.h"
-#include "flank/part.h"
-#include "flank/printable.h"
-#include "flank/report.h"
-#include "flank/studio/studio.h"
+#include "studio_options.h"
 
 namespace flank::cli {
-using namespace internal;
 namespace {
 
+namespace fs = std::filesystem;
+
 /// This very program, wherever it was started from.
-std::string this_program() {
+fs::path this_program() {
   std::error_code error;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  fs::path program = fs::read_symlink("/proc/self/exe", error);
   if (error) throw InternalError("/proc/self/exe cannot be read; the studio cannot start its children");
-  return program.string();
+  return program;
 }
 
-void say_address(const std::string& address, const StudioOptions& options, bool open, const CommonOptions& common) {
-  if (common.json)
-    fmt::print("{{\"schema\": \"openflank/studio-address/1\", \"url\": \"{}\"}}\n", address);
-  else
-    fmt::print("{}\n", address);
-  if (!common.json && !common.quiet)
-    fmt::print("for this computer only; parts and jobs are kept in {}; Ctrl-C ends the studio\n",
-               printable(options.folder));
-  std::fflush(stdout);
-  if (!open) return;
-  // A browser may take its time, or all of it.
-  std::thread([address] {
-    try {
-      open_page(address);
-    } catch (const std::exception&) {  // the address is there to be copied
-    }
-  }).detach();
+/// Beside the command, or where packages keep programs that no user calls.
+fs::path studio_program(const fs::path& command) {
+  const fs::path folder = command.parent_path();
+  for (const fs::path& place : {folder, folder.parent_path() / "libexec" / "openflank"}) {
+    std::error_code error;
+    fs::path program = place / "flank-studio";
+    if (fs::is_regular_file(program, error)) return program;
+  }
+  constexpr const char* kMissing = FLANK_STUDIO_MISSING;
+  throw UsageError("studio",
+                   *kMissing != '\0'
+                       ? fmt::format("this flank was built without the studio: {}", kMissing)
+                       : fmt::format("the program flank-studio is neither in {} nor in ../libexec/openflank of it",
+                                     folder.string()));
+}
+
+/// Does not return: from here on this process is the server, with the streams and the number that the command had.
+[[noreturn]] void become_studio(const std::vector<std::string>& words) {
+  const std::string command = this_program(), program = studio_program(command);
+  std::vector<std::string> all{program, command};
+  all.insert(all.end(), words.begin(), words.end());
+  std::vector<char*> arguments;
+  for (std::string& word : all) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  ::execv(program.c_str(), arguments.data());
+  throw InternalError(fmt::format("{}: cannot be started ({})", program, std::strerror(errno)));
 }
 
 }  // namespace
 
 Subcommand add_studio(CLI::App& parser) {
-  CLI::App* app =
-      parser.add_subcommand("studio", "Open the studio in the browser: drop a part, click a face, run, check, post");
-  auto options = std::make_shared<StudioOptions>();
-  auto open = std::make_shared<bool>(true);
-  options->folder = "flank-studio";
-  app->add_option("PART", options->part, part_formats() + " file to open first");
-  app->add_option("--unit", options->unit, "Unit of a mesh, or of a CAD file that states a wrong one: mm, cm, m or in")
-      ->check(CLI::IsMember({"mm", "cm", "m", "in"}));
-  app->add_option("-o,--output", options->folder, "Folder of parts and jobs; an earlier one is continued")
-      ->capture_default_str();
-  app->add_option("--port", options->port, "Port on 127.0.0.1; 0: any free port")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 65535));
-  app->add_flag("--browser,!--no-browser", *open, "Open the page in the browser; --no-browser only prints its address");
-  app->footer("Example: flank example twisted-blade -o blade.step && flank studio blade.step");
-  return {app,
-          [options, open](const CommonOptions& common) {
-            const Progress progress = terminal_progress(common);
-            run_studio(
-                *options, this_program(),
-                [&](const std::string& address) { say_address(address, *options, *open, common); }, progress.cancelled);
-            return kMeetsRequest;
-          },
+  const auto words = std::make_shared<StudioWords>();  // the parser writes into it, and the server's parser again
+  return {add_studio_words(parser, words),
+          [words](const CommonOptions& common) -> int { become_studio(common.words); },
           {{"studio", "studio"}}};
 }
 

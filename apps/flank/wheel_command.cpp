@@ -38,6 +38,19 @@ Acceptance post_whole(const WheelProgram& program, const WheelJob& job, bool qui
   return outcome.acceptance;
 }
 
+void add_roughing(CLI::App& app, WheelJob& job) {
+  app.add_option("--blank", job.blank,
+                 "The blank, a closed body in the part's place: " + part_formats() + ". Default: turned about the part")
+      ->group("Roughing");
+  app.add_option("--allowance", job.allowance_mm, "Of a turned blank over the part")
+      ->capture_default_str()
+      ->group("Roughing");
+  app.add_option("--engagement", job.most_engagement_deg,
+                 "Largest engagement in the simulation of roughing, degrees; 180 allows slots")
+      ->capture_default_str()
+      ->group("Roughing");
+}
+
 void add_options(CLI::App& app, WheelJob& job, WheelProgram& program) {
   app.add_option("PART", job.part, part_formats() + " file")->required();
   app.add_option("--unit", job.unit, "Unit of a mesh, or of a CAD file that states a wrong one: mm, cm, m or in")
@@ -57,6 +70,12 @@ void add_options(CLI::App& app, WheelJob& job, WheelProgram& program) {
       "--no-edges", [&job] { job.edges = false; }, "Do not machine leading and trailing edges");
   app.add_flag_callback(
       "--no-rough", [&job] { job.rough = false; }, "Do not rough the channels");
+  app.add_option("--most-tilt", job.most_tilt_deg,
+                 "Largest angle between the tool and the wheel's axis on passes of the tip, degrees: as far as the "
+                 "machine tilts the part")
+      ->capture_default_str()
+      ->group("Program");
+  add_roughing(app, job);
   app.add_option("--hub", job.choice.hub, "Faces of the hub, as F1. Default: found")->group("Roles");
   app.add_option("--blade", job.choice.blades,
                  "Faces of a main blade, as F8,F9,F10; once for each blade. Default: found")
@@ -111,6 +130,10 @@ Subcommand add_wheel(CLI::App& parser) {
            {"blade", "--blade"},
            {"count", "--count"},
            {"sample_mm", "--sample"},
+           {"blank", "--blank"},
+           {"allowance_mm", "--allowance"},
+           {"most_engagement_deg", "--engagement"},
+           {"most_tilt_deg", "--most-tilt"},
            {"machine", "--machine"}}};
 }
 

@@ -282,8 +282,6 @@ std::string take_part(Desk& desk, const StudioOptions& options) {
 
 }  // namespace
 
-std::string_view studio_is_missing() { return ""; }
-
 void run_studio(const StudioOptions& options, const std::string& program,
                 const std::function<void(const std::string& address)>& told, const std::function<bool()>& cancelled) {
   if (studio_template().empty())

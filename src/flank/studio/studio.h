@@ -15,11 +15,8 @@ struct StudioOptions {
   int port = 0;                     ///< 0: any that is free
 };
 
-/// What was lacking when the program was built without the studio; empty if it is there.
-[[nodiscard]] std::string_view studio_is_missing();
-
 /// Serves until cancelled() is true. told(address) is called once the page can be opened. `program`: the command. What runs then is told
-/// to stop and keeps its best. Throws UsageError if the program was built without the studio or its page; InputError if the folder
+/// to stop and keeps its best. Throws UsageError if the program was built without the page; InputError if the folder
 /// cannot be used, another studio has it, the part cannot be read, or the port is taken.
 void run_studio(const StudioOptions& options, const std::string& program,
                 const std::function<void(const std::string& address)>& told, const std::function<bool()>& cancelled);
