@@ -1,5 +1,5 @@
-# The server of `flank studio`: linked into the command alone, so that the library opens no connection. Where cpp-httplib is missing the
-# command is built without it, and says so.
+# The server of `flank studio`: a program of its own, flank-studio, which the command becomes. Nothing else links what opens a connection,
+# or loads it. Where cpp-httplib is missing it is not built, and the command says so.
 find_path(FLANK_HTTPLIB httplib.h)
 find_library(FLANK_HTTPLIB_LIBRARY cpp-httplib)
 mark_as_advanced(FLANK_HTTPLIB FLANK_HTTPLIB_LIBRARY)
@@ -16,37 +16,22 @@ if(NOT FLANK_STUDIO_USED AND NOT _flank_studio_missing)
   set(_flank_studio_missing "FLANK_STUDIO was ${FLANK_STUDIO} when it was built")
 endif()
 
-# flank_studio(): the library flank_studio of the room `studio`, or of one source that says what was lacking.
+# What the command says when there is no flank-studio; empty where there is one.
+set(FLANK_STUDIO_MISSING "${_flank_studio_missing}")
+
+# flank_studio(): the library flank_studio of the room `studio`; nothing where it is not used.
 function(flank_studio)
-  set(folder ${PROJECT_SOURCE_DIR}/src/flank/studio)
-  if(FLANK_STUDIO_USED)
-    file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.cpp)
-  else()
-    set(sources ${PROJECT_BINARY_DIR}/studio_missing.cpp)
-    file(CONFIGURE OUTPUT ${sources} @ONLY CONTENT
-"#include \"flank/error.h\"
-#include \"flank/studio/studio.h\"
-namespace flank::internal {
-std::string_view studio_is_missing() { return \"@_flank_studio_missing@\"; }
-void run_studio(const StudioOptions&, const std::string&, const std::function<void(const std::string&)>&,
-                const std::function<bool()>&) {
-  throw UsageError(\"studio\", \"this flank was built without the studio: \" + std::string(studio_is_missing()));
-}
-}  // namespace flank::internal
-")
+  if(NOT FLANK_STUDIO_USED)
+    return()
   endif()
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/flank/studio/*.cpp)
   add_library(flank_studio STATIC ${sources})
   target_include_directories(flank_studio PUBLIC ${PROJECT_SOURCE_DIR}/src PRIVATE ${FLANK_HTTPLIB})
-  target_link_libraries(flank_studio PUBLIC flank fmt::fmt nlohmann_json::nlohmann_json
+  target_link_libraries(flank_studio PUBLIC flank fmt::fmt nlohmann_json::nlohmann_json ${FLANK_HTTPLIB_LIBRARY}
                         PRIVATE $<BUILD_INTERFACE:flank_warnings>)
-  if(FLANK_STUDIO_USED)
-    target_link_libraries(flank_studio PUBLIC ${FLANK_HTTPLIB_LIBRARY})
-    target_compile_definitions(flank_studio PUBLIC ${FLANK_HTTPLIB_DEFINITIONS})
-  endif()
+  target_compile_definitions(flank_studio PUBLIC ${FLANK_HTTPLIB_DEFINITIONS})
   # It waits for children and for people: it needs no speed.
   target_compile_options(flank_studio PRIVATE ${FLANK_TEXT_OPTIONS})
   flank_precompile(flank_studio flank_precompiled_text)
-  if(FLANK_STUDIO_USED)
-    flank_unity(flank_studio)
-  endif()
+  flank_unity(flank_studio)
 endfunction()

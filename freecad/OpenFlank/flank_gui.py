@@ -24,6 +24,10 @@ class ViewProvider:
     def claimChildren(self):
         return [child for child in (self.Object.ToolShape, self.Object.PathShape, self.Object.ErrorMap) if child]
 
+    def isShow(self):
+        """It has nothing of its own to draw, and FreeCAD draws the icon of what is hidden in grey."""
+        return True
+
     def getIcon(self):
         verdict = self.Object.Verdict
         colour = "#9aa6b3" if not verdict else "#1e7a46" if verdict == "meets the request" and not self.Object.Cautions else "#c98500" if verdict == "meets the request" else "#b3241f"
@@ -32,8 +36,6 @@ class ViewProvider:
     def updateData(self, obj, name):
         if name == "Verdict":
             obj.ViewObject.signalChangeIcon()
-        if name == "ErrorMap" and obj.ErrorMap and "FaceColors" in obj.ErrorMap.PropertiesList:
-            obj.ErrorMap.ViewObject.Coloring = True
 
     def setupContextMenu(self, _view, menu):
         menu.addAction("Report").triggered.connect(lambda: subprocess.Popen([flank_child.find_flank(), "view", self.Object.Folder]))

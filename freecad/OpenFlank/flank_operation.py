@@ -54,7 +54,7 @@ class FlankOperation:
         self.add_properties(obj)
 
     def add_properties(self, obj):
-        """Those that an object of an earlier version lacks, too."""
+        """Adds the properties; also those that an object of an earlier version lacks."""
         def add(kind, name, group, text):
             if name not in obj.PropertiesList:
                 obj.addProperty(kind, name, group, text)
@@ -187,6 +187,9 @@ def show(obj):
     if "FaceColors" not in mesh.PropertiesList:
         mesh.addProperty("App::PropertyColorList", "FaceColors", "OpenFlank", "Colour of each facet")
     mesh.FaceColors = colours
+    if FreeCAD.GuiUp:  # only now: without the colours it would have none to show
+        mesh.ViewObject.Coloring = True
+        mesh.ViewObject.Lighting = "Two side"  # a sheet is looked at from its back, too
 
 
 def move_tool(obj, share):

@@ -39,6 +39,8 @@ struct ClearanceOptions {
   /// Least clearance of every pair but shank and target; negative: as `tolerance_mm` for the shank and flank, 0 for the
   /// holder.
   double required_mm = -1.0;
+  /// >= 0: left on the faces of the part. What is required of shank and holder beside them is more by this; not beside fixtures.
+  double allowance_mm = 0.0;
 };
 
 /// One body of the tool against all obstacles of one role.

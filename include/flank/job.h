@@ -22,6 +22,9 @@ struct PartRequest {
   std::optional<int>
       side;             ///< +1 or -1: the machined side of an open sheet; none: by the part (docs/algorithms/side.md)
   bool facing = false;  ///< the faces are two walls of a cavity; no field: `machined` sets it
+  /// > 0: left on purpose. What is wanted, of these faces and of all others of the part, is the face moved outwards by this;
+  /// none or 0: the face itself. Of fit, cover and trochoid.
+  std::optional<double> allowance_mm = {};
   bool operator==(const PartRequest&) const = default;
   /// For titles: "F1,F3", or "skin of F143".
   [[nodiscard]] std::string target_text() const { return skin ? "skin of " + *skin : faces; }

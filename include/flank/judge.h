@@ -67,6 +67,8 @@ struct SweptDistance {
 class SweptVolume {
  public:
   SweptVolume(const Tool& tool, const Path& path);
+  /// The same tool along another path. What depends on the tool alone is shared: most of the time that a short path takes.
+  SweptVolume(const SweptVolume& of_tool, const Path& path);
   ~SweptVolume();
   SweptVolume(SweptVolume&&) noexcept;
   /// Exact to about 1e-9 mm for |f| below `horizon_mm`; farther points return some value >= horizon_mm (or <= -horizon
@@ -86,6 +88,13 @@ class SweptVolume {
     double radius = 0.0;  ///< mm
   };
   [[nodiscard]] Ball ball(const SweptDistance& place) const;
+  /// The same ball as it goes from one pose to the next: at each place of the straight way from `from` to `from` + `along` there is one of
+  /// this radius or a larger one, but for `off`, mm, by which its centre is beside that way at most.
+  struct BallWay {
+    Vec3 from = Vec3::Zero(), along = Vec3::Zero();
+    double radius = 0.0, off = 0.0;
+  };
+  [[nodiscard]] BallWay ball_way(const SweptDistance& place) const;
 
  private:
   struct Data;
@@ -232,7 +241,6 @@ struct SheetSide {
   std::string reason;           ///< "where the normal of the file points"
 };
 
-/// Coverage and undercut have no part in the verdict: how much is enough is for the caller to say.
 /// How sharply a motion turns: the largest angle between two of its directions within a stretch of 1 % of the target's diagonal, tip and
 /// upper end of the axis being one curve of six numbers.
 struct TurnFigure {
@@ -241,9 +249,12 @@ struct TurnFigure {
   Vec3 point = Vec3::Zero();  ///< the tip where it turns, mm
 };
 
+/// Coverage and undercut have no part in the verdict: how much is enough is for the caller to say.
 struct VerifyReport {
   Verdict verdict = Verdict::kNotRun;
   double tolerance_mm = 0.0;
+  /// Left on purpose: every f of the report is from the faces moved outwards by this, mm; not filled by judge()
+  double allowance_mm = 0.0;
   double coverage = 0.0;                                   ///< area-weighted over the targets
   double reachable_share = 0.0, coverage_reachable = 0.0;  ///< likewise
   /// Lower bounds of coverage, likewise; none if the faces' shapes were not known

@@ -146,6 +146,8 @@ void bind_judge(py::module_& module) {
           "verdict", [](const VerifyReport& r) { return verdict_text(r.verdict); },
           "pass, overcut, gouge, unproved or not run.")
       .def_readonly("tolerance_mm", &VerifyReport::tolerance_mm, "mm.")
+      .def_readonly("allowance_mm", &VerifyReport::allowance_mm,
+                    "mm left on purpose: every error is measured from the faces moved out by this.")
       .def_readonly("coverage", &VerifyReport::coverage, "Finished share of the machined faces: |f| <= tolerance.")
       .def_readonly("coverage_reachable", &VerifyReport::coverage_reachable, "Finished share of the accessible area.")
       .def_readonly("reachable_share", &VerifyReport::reachable_share, "Share of the area that is accessible.")

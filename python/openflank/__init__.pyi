@@ -253,6 +253,8 @@ class VerifyReport:
     @property
     def tolerance_mm(self) -> float: ...
     @property
+    def allowance_mm(self) -> float: ...
+    @property
     def coverage(self) -> float: ...
     @property
     def coverage_reachable(self) -> float: ...
@@ -420,6 +422,10 @@ def wheel(
     sample_mm: float | None = ...,
     rough: bool = ...,
     edges: bool = ...,
+    blank: _File | None = ...,
+    allowance_mm: float = ...,
+    most_engagement_deg: float = ...,
+    most_tilt_deg: float = ...,
     hub: str | None = ...,
     blades: Sequence[str] = ...,
     splitters: Sequence[str] = ...,
@@ -437,6 +443,7 @@ def fit(
     side: Literal[1, -1, "+", "-"] | None = None,
     tool: _File = ...,
     tolerance_mm: float | None = None,
+    allowance_mm: float | None = None,
     axis_length_mm: float | None = None,
     strips: Union[int, Literal["auto"]] = ...,
     effort: str = ...,
@@ -479,6 +486,7 @@ def cover(
     side: Literal[1, -1, "+", "-"] | None = None,
     axis_length_mm: float | None = None,
     tolerance_mm: float | None = None,
+    allowance_mm: float | None = None,
     strategy: str = ...,
     seed: int | None = None,
     seeds: str = ...,
@@ -513,6 +521,7 @@ def trochoid(
     floor: str | None = None,
     tool: _File = ...,
     tolerance_mm: float | None = None,
+    allowance_mm: float | None = None,
     axis_length_mm: float | None = None,
     max_engagement: float = ...,
     cut: str = ...,

@@ -49,23 +49,30 @@ def machine(name):
 
 
 def wheel(part, folder, *, tolerance_mm=0.05, unit=None, tool=None, coverage=0.97, effort="quick", sample_mm=None, rough=True,
-          edges=True, hub=None, blades=(), splitters=(), count=None, progress=None):
+          edges=True, blank=None, allowance_mm=0.5, most_engagement_deg=180.0, most_tilt_deg=100.0, hub=None, blades=(),
+          splitters=(), count=None, progress=None):
     """Mills a whole wheel, as flank wheel does: plan.json as a dict (docs/schema/wheel.md). The results lie in the folder.
 
     part, unit
         A file, and the unit of a mesh: "mm", "cm", "m" or "in".
     tolerance_mm, coverage
-        The tolerance, and the share of what is open of the flow surface that must be within it.
+        The tolerance, and the share of the accessible area of sides, edges, fillets and hub that must be within it.
     tool
-        A tool.json, a family such as "cone:radius=0.6,angle=12", or "free". None: made for the wheel.
+        A tool.json, a family such as "cone:radius=0.6,angle=12", or "free". None: found for the wheel.
     effort
-        Of the fits: "quick", "normal" or "thorough".
+        How long each fit searches: "quick", "normal" or "thorough".
     sample_mm
-        Judge by samples alone; None: with a proof.
+        Spacing of a fast check without the proof; None: samples and a proof.
     rough, edges
         False leaves out the roughing, or the edges.
+    blank, allowance_mm
+        A closed body in the part's place, as a file. None: turned about the part, with this allowance.
+    most_engagement_deg
+        The largest engagement that the simulation of the roughing may show; 180 allows slots.
+    most_tilt_deg
+        The largest angle between the tool and the wheel's axis on passes of the tip: as far as the machine tilts the part.
     hub, blades, splitters, count
-        Roles: "F1"; one list of faces a blade; equal sectors in a whole turn. What is not given is found.
+        Roles of the faces: "F1"; one list of faces for each blade; number of equal sectors in a whole turn. Default: found.
     progress
         Called as progress(stage, share).
 
@@ -74,7 +81,10 @@ def wheel(part, folder, *, tolerance_mm=0.05, unit=None, tool=None, coverage=0.9
     request = _core.WheelRequest()
     given = {"part": os.fspath(part), "folder": os.fspath(folder), "tolerance_mm": tolerance_mm, "unit": unit,
              "tool": None if tool is None else os.fspath(tool), "coverage": coverage, "effort": effort, "sample_mm": sample_mm,
-             "rough": rough, "edges": edges, "hub": hub, "blades": list(blades), "splitters": list(splitters), "count": count}
+             "rough": rough, "edges": edges,
+             "blank": None if blank is None else os.fspath(blank), "allowance_mm": allowance_mm,
+             "most_engagement_deg": most_engagement_deg, "most_tilt_deg": most_tilt_deg,
+             "hub": hub, "blades": list(blades), "splitters": list(splitters), "count": count}
     for name, value in given.items():
         setattr(request, name, value)
     text, stopped_by = _core.mill_wheel(request, progress)

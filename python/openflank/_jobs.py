@@ -58,7 +58,7 @@ def _usual(field):
 
 
 def is_positional(field):
-    """What is a word without an option on the command line, or must be given, may go without its keyword."""
+    """Fields that are positional on the command line, or required, may be given without their keyword."""
     return field.needed or not field.option.startswith("-")
 
 

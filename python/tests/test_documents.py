@@ -46,3 +46,54 @@ def test_what_is_well_written_passes(tmp_path):
 def test_tables_are_those_of_their_files():
     done = subprocess.run([sys.executable, ROOT / "scripts/results.py", "--check"], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
+
+
+@pytest.fixture
+def results():
+    path = sys.path[:]
+    sys.path.insert(0, str(ROOT / "bench"))
+    import run_results
+
+    sys.path[:] = path
+    return run_results
+
+
+def summary(**more):
+    return {"pass": True, "complete": True, "slenderness": 3.0, "largest_c": 0.2, "largest_turn": 4.0, "reasons": []} | more
+
+
+@pytest.mark.parametrize(
+    "found, end, told",
+    [
+        (summary(), 0, "usable"),
+        (summary(slenderness=8.2), 0, "meets the request but L:D is 8.2"),
+        (summary(largest_c=1.07), 0, "meets the request but axial slip is 1.07"),
+        (summary(cavity={}), 0, "meets"),
+        (summary(), 1, "exit code 1 does not agree with the summary"),
+        (summary(**{"pass": False}), "stopped", "no: stopped after 600 s"),
+        ({}, 3, "no result, exit code 3"),
+    ],
+)
+def test_a_row_is_called_usable_only_if_it_is(results, found, end, told):
+    assert results.verdict(found, end, 600) == told
+
+
+def test_a_reason_is_told_without_its_place(results):
+    texts = ("nothing could hold the tool: above the flank its axis runs through F46 at (1.000, 2.000, 3.000), pass 2",
+             "the motion turns by 21.3 degrees > 15 within 1 % of the face's diagonal, pass 1, tip at (0.000, 0.000, 0.000)",
+             "F2 is gouged by 0.1000 mm > 0.05 mm at (0.000, 0.000, 0.000), pass 1")
+    found = summary(**{"pass": False}, reasons=[{"figure": "", "text": text} for text in texts])
+    assert results.verdict(found, 1, 600) == ("no: nothing could hold the tool: above the flank its axis runs through F46; "
+                                              "the motion turns by 21.3 degrees > 15 within 1 % of the face's diagonal; and 1 more")
+
+
+def test_a_command_is_measured_stopped_at_its_limit_and_never_read_from_an_older_folder(results, tmp_path):
+    flank = tmp_path / "flank"
+    flank.write_text(f"#!{sys.executable}\nimport json, pathlib, sys\nout = pathlib.Path(sys.argv[-1])\nout.mkdir()\n"
+                     "if 'slow' in sys.argv:\n    while True: pass\n"
+                     "out.joinpath('summary.json').write_text(json.dumps({'words': sys.argv[1:]}))\n")
+    flank.chmod(0o755)
+    found, _, end, seconds = results.run(flank, "part.step", ["fit", "--face", "F1"], tmp_path / "out", 60)
+    assert found["words"][:4] == ["fit", "part.step", "--face", "F1"] and end == 0 and seconds > 0
+    found, _, end, _ = results.run(flank, "part.step", ["fit", "slow"], tmp_path / "out", 0.3)
+    assert found == {} and end == "stopped"

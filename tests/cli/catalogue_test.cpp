@@ -75,7 +75,7 @@ TEST_F(CliCatalogue, SaysOfEveryToolWhyItCannotWork) {
   write_file(root_ / "tools/thick.json", tool_file("barrel", R"({"arc": 60, "radius": 50, "s0": 20})", 45.0));
   const Outcome cover = flank(rank("out"));
   EXPECT_EQ(cover.exit_code, 1) << cover.err;
-  EXPECT_NE(cover.out.find("no tool of 2 can machine this face"), std::string::npos) << cover.out;
+  EXPECT_NE(cover.out.find("none of 2 tools can machine this face"), std::string::npos) << cover.out;
   const json ranking = json::parse(read_file(root_ / "out/ranking.json"));
   for (const json& tool : ranking.at("tools")) {
     EXPECT_FALSE(tool.at("works").get<bool>());

@@ -150,6 +150,13 @@ TEST_F(CliKept, NoCommandThatWritesAFolderWritesWhatItReads) {
         {"vice.step", "F1-1.task.json"}}},
       {with({"design", part, "--faces", "F1", "--tools", "1"}, obstacles),
        {{"barrel.step", "design.json"}, {"vice.step", "design.csv"}, {"holder.txt", "design.html"}}},
+      {{"bound", part, "--map", "--tool", path("tools/one.json")},
+       {{"barrel.step", "map.json"}, {"tools/one.json", "map.html"}}},
+      {{"bound", part, "--face", "F1", "--tool", path("tools/one.json")}, {{"barrel.step", "bound.txt"}}},
+      {{"redesign", part, "--face", "F1", "--tool", path("tools/one.json")},
+       {{"barrel.step", "redesigned.step"}, {"tools/one.json", "tool.json"}}},
+      {{"correct", path("out"), "--profile", path("guide.txt")},
+       {{"guide.txt", "guide.txt"}, {"out/path.json", "path.json"}, {"barrel.step", "correct.json"}}},
   };
   for (const FolderCommand& command : commands)
     for (const auto& [read, written] : command.reads)

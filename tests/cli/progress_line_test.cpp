@@ -93,7 +93,7 @@ TEST(ProgressLine, SaysWhatIsKnown) {
   line.found({.coverage = 0.9731, .deepest_mm = 0.001, .clean = true});
   EXPECT_EQ(line.line("polish", 0.2, 10.0), "polish  20 %, best 97.3 %");
   (void)line.line("polish", 0.4, 20.0);
-  EXPECT_EQ(line.line("last passes", 0.6, 30.0), "last passes  60 %, best 97.3 %, about 20 s left");
+  EXPECT_EQ(line.line("fine fit", 0.6, 30.0), "fine fit  60 %, best 97.3 %, about 20 s left");
 }
 
 TEST(ProgressLine, KeepsTheBest) {

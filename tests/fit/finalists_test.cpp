@@ -108,7 +108,7 @@ TEST_F(Racing, WhatCoversEnoughAndGainedNothingGetsNoMorePasses) {
   EXPECT_GE(winner.polished.estimate.at_tolerance, options_.enough_coverage);
   EXPECT_FALSE(winner.enough);
   const auto steps = progress.journal->steps();
-  EXPECT_EQ(std::count_if(steps.begin(), steps.end(), [](const auto& step) { return step.name == "last passes"; }), 1);
+  EXPECT_EQ(std::count_if(steps.begin(), steps.end(), [](const auto& step) { return step.name == "fine fit"; }), 1);
 }
 
 TEST_F(Racing, WhatACloseLookHasCalledShortIsNotLookedAtAgain) {
@@ -120,7 +120,7 @@ TEST_F(Racing, WhatACloseLookHasCalledShortIsNotLookedAtAgain) {
   for (double x_last = 40.0; x_last < 44.0 && !(rough > seen + 1e-3); x_last += 0.3) {
     candidate.polished = assess(start(2.0, 0.0, x_last), samples, options_);
     rough = candidate.polished.estimate.at_tolerance;
-    seen = looked_at_closely(candidate.polished, samples, options_).estimate.at_tolerance;
+    seen = measured_closely(candidate.polished, samples, options_).estimate.at_tolerance;
   }
   ASSERT_GT(rough, seen + 1e-3);
   options_.enough_coverage = 0.5 * (rough + seen);

@@ -3,6 +3,7 @@
 #include "flank/fit/swept_polish.h"
 #include "flank/fit/coverage.h"
 #include "flank/fit/partial_polish.h"
+#include "flank/fit/polish.h"
 
 #include <gtest/gtest.h>
 
@@ -306,6 +307,28 @@ TEST(LastDigits, AreFoundOnAnEnvelope) {
   EXPECT_LT(fine.estimate.rms_mm, 0.2 * rough.estimate.rms_mm);
   EXPECT_LE(fine.estimate.overcut_mm, std::max(rough.estimate.overcut_mm, 2e-6 * size));
   EXPECT_GE(fine.estimate.at_tolerance, rough.estimate.at_tolerance);
+}
+
+/// A close look lifts a given tool out of all overcut, by what a sphere may be deeper between two points.
+TEST(LastDigits, OfAnEnvelopeAreFoundAgainByAGivenToolThatWasLifted) {
+  const Example example = make_example("envelope-barrel-1");
+  const auto target = make_target(std::vector<Face>{example.faces.front()});
+  const double size = target->diagonal();
+  FlankFitOptions options = small_options();
+  options.tolerance_mm = 1e-4 * size;
+  const auto samples = ranking_samples(*target, nullptr, options);
+  FitDraft draft;
+  draft.targets = {target.get()};
+  draft.motions = {example.truth->motions.front()};
+  draft.tool = example.truth->tool.radial;
+  const Vec3 middle = draft.motions.front().pose(0.5).at(0.5 * draft.motions.front().axis_length);
+  draft.motions.front().tip.poles.colwise() += Vec3(6e-5 * size * target->closest(middle).normal);
+  const Polished lifted = assess(draft, samples, options);
+  ASSERT_GT(lifted.estimate.rms_mm, 4e-5 * size);
+  const Polished fine = refine_exact_envelope(lifted, samples, options, nullptr);
+  EXPECT_TRUE(fine.exact);
+  EXPECT_LT(fine.estimate.rms_mm, 5e-7 * size);
+  EXPECT_LT(measured_closely(fine.draft, options).estimate.turn, 1.0);
 }
 
 TEST(LastDigits, LeaveWhatIsNoEnvelopeAndToolsThatAreGiven) {

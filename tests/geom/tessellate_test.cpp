@@ -66,6 +66,15 @@ TEST(Tessellate, StaysWithinTheChord) {
   }
 }
 
+TEST(Tessellate, SaysTheParametersOfItsVertices) {
+  Face face = quarter_cylinder();
+  face.loops.push_back(circle(0.5, 0.5, 0.3));
+  const Tessellation t = tessellate(face, {.chord_mm = 0.01});
+  ASSERT_EQ(t.parameters.size(), t.mesh.vertices.size());
+  for (std::size_t k = 0; k < t.parameters.size(); ++k)
+    EXPECT_EQ(t.mesh.vertices[k], face.surface.value(t.parameters[k].x(), t.parameters[k].y()));
+}
+
 TEST(Tessellate, KeepsTheEdgeLength) {
   const TriangleMesh mesh = tessellate(quarter_cylinder(), {.chord_mm = 1.0, .edge_mm = 0.5}).mesh;
   double longest = 0;

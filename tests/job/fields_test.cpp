@@ -24,8 +24,8 @@ void add(Addresses& all, const Members&... members) {
 
 // A new member of a job does not compile here until it is named, and then has to be in the table.
 void add_members(const PartRequest& request, Addresses& all) {
-  // `facing` is set by the library, not by a user.
-  const auto& [file, unit, faces, skin, side, facing] = request;
+  // `facing` is set by the library, not by a user; `allowance` belongs to some jobs only.
+  const auto& [file, unit, faces, skin, side, facing, allowance] = request;
   add(all, file, unit, faces, skin, side);
 }
 void add_members(const ToolRequest& request, Addresses& all) {
@@ -53,6 +53,7 @@ Addresses members(const FitJob& job) {
       job;
   Addresses all;
   add_members(part, all), add_members(tool, all), add_members(radius, all), add_members(obstacles, all);
+  add(all, part.allowance_mm);
   add_members(judge, all);
   add(all, tolerance, start, guide, cut, strips, avoid, effort, curve, bend, judge.most_turn_deg);
   return all;
@@ -61,6 +62,7 @@ Addresses members(const CoverJob& job) {
   const auto& [part, tool, choice, obstacles, judge, tolerance, cut, strategy, seed, seeds, most_strips, price] = job;
   Addresses all;
   add_members(part, all), add_members(tool, all), add_members(choice, all), add_members(obstacles, all);
+  add(all, part.allowance_mm);
   add_members(judge, all);
   add(all, tolerance, cut, strategy, seed, seeds, most_strips, price, judge.most_turn_deg);
   return all;
@@ -71,12 +73,12 @@ void add_members(const NcRequest& request, Addresses& all) {
 }
 Addresses members(const TrochoidJob& job) {
   const auto& [part, left, right, floor, tool, radius, cycles, obstacles, judge, tolerance, avoid] = job;
-  const auto& [file, unit, faces, skin, side, facing] = part;
+  const auto& [file, unit, faces, skin, side, facing, allowance] = part;
   const auto& [engagement, cut, layers, entry, ramp, strategy, feed, rapid, cell] = cycles;
   Addresses all;
   add_members(tool, all), add_members(radius, all), add_members(obstacles, all), add_members(judge, all);
   add(all, file, left, right, floor, engagement, cut, layers, entry, ramp, strategy, feed, rapid, cell, tolerance,
-      avoid);
+      avoid, allowance);
   return all;
 }
 Addresses members(const PostJob& job) {
@@ -89,7 +91,7 @@ Addresses members(const PostJob& job) {
 }
 Addresses members(const DesignJob& job) {
   const auto& [part, tools, source, shape, length, avoid, radius, choice, obstacles, judge, tolerance, change] = job;
-  const auto& [file, unit, faces, skin, side, facing] = part;
+  const auto& [file, unit, faces, skin, side, facing, allowance] = part;
   Addresses all;
   add_members(radius, all), add_members(choice, all), add_members(obstacles, all), add_members(judge, all);
   add(all, file, unit, faces, side, tools, source, shape, length, avoid, tolerance, change);

@@ -137,7 +137,8 @@ TEST(MachineFile, ReadsOutlinesOfTableAndHead) {
 
 TEST(MachineFile, RefusesWhatAControlCannot) {
   const std::string linuxcnc = shipped_text("linuxcnc-xyzac-trt");
-  expect_refused(replaced(linuxcnc, "join = \"axes\"", "join = \"great-circle\""), "LinuxCNC joins blocks by \"axes\"");
+  expect_refused(replaced(linuxcnc, "join = \"axes\"", "join = \"great-circle\""),
+                 "LinuxCNC can join blocks by \"axes\" only");
   expect_refused(replaced(linuxcnc, "positions = \"tip-rotary\"", "positions = \"tip-vector\""), "no vectors");
   expect_refused(replaced(shipped_text("heidenhain-ac"), "feed = \"per-minute\"", "feed = \"inverse-time\""),
                  "per-minute");

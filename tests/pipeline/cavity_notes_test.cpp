@@ -34,14 +34,14 @@ Result cleared() {
 TEST(CavityNotes, TheNearestRequestThatIsMetIsTold) {
   Result result = cleared();
   note_nearest(result);
-  EXPECT_EQ(result.notes, std::vector<std::string>{"closest to the request, this result meets --coverage 0.94"});
+  EXPECT_EQ(result.notes, std::vector<std::string>{"this result would meet the request with --coverage 0.94"});
 }
 
 TEST(CavityNotes, OfWhatIsTooDeepToo) {
   Result result = cleared();
   result.verify.overcut_bound_mm = 0.0144;
   note_nearest(result);
-  EXPECT_EQ(result.notes.back(), "closest to the request, this result meets --coverage 0.94 --tolerance 0.015");
+  EXPECT_EQ(result.notes.back(), "this result would meet the request with --coverage 0.94 --tolerance 0.015");
 }
 
 TEST(CavityNotes, NoneWhereCyclesGotStuckOrAllIsMet) {

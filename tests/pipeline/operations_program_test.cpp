@@ -1,4 +1,5 @@
 // Programs of several tools and of turned copies: judged operation by operation as strictly as a program of one, and together.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -11,8 +12,9 @@
 #include "flank/io/cad/write_step.h"
 #include "flank/job/job_json.h"
 #include "flank/path_file.h"
-#include "flank/pipeline/folder/operation_words.h"
 #include "flank/pipeline/folder/turned_copies.h"
+#include "flank/pipeline/folder/wheel_plan.h"
+#include "flank/pipeline/program/operation_words.h"
 #include "flank/run.h"
 #include "flank/tool_file.h"
 #include "sanitized.h"
@@ -66,6 +68,29 @@ class Folders {
     job.copies = 2;
     job.copy_axis = copy_axis_text(axis_);
     return job;
+  }
+  /// The same as the folder of a wheel: both halves by two operations, of which the whole has the path.
+  [[nodiscard]] std::string wheel() const {
+    const fs::path folder = root_ / "wheel";
+    if (fs::exists(folder)) return folder.string();
+    fs::create_directories(folder / "ops");
+    for (const char* name : {"job.json", "tool.json"}) fs::copy(root_ / "first" / name, folder / name);
+    fs::copy(root_ / "first", folder / "ops/20-side");
+    fs::copy(root_ / "first", folder / "ops/30-floor");
+    const Vec3 &p = axis_.point, &d = axis_.direction;
+    const auto step = [](const char* id, const char* kind) {
+      return fmt::format(R"({{"id": "{0}", "kind": "{1}", "folder": "ops/{0}-{1}", "copies": 2, "done": true}})", id,
+                         kind);
+    };
+    write(
+        folder / "plan.json",
+        fmt::format(R"({{"schema": "openflank/plan/1", "axis": {{"point_mm": [{}, {}, {}], "direction": [{}, {}, {}]}},
+                      "copies": 2, "sectors": 2, "whole": true, "most_engagement_deg": 180, "operations": [{}, {}]}})",
+                    p.x(), p.y(), p.z(), d.x(), d.y(), d.z(), step("20", "side"), step("30", "floor")));
+    Path sector = read_path((root_ / "first/path.json").string());
+    sector.strips.push_back(sector.strips.front());
+    write_path(all_copies(sector, *read_wheel_plan(folder.string()), 2), (folder / "path.json").string());
+    return folder.string();
   }
   [[nodiscard]] VerifyJob verify(const std::string& text) const {
     write(root_ / "p.nc", text);
@@ -187,6 +212,33 @@ TEST(OperationsProgram, OfCopiesThatAreNotTurnedAsTheySayDoesNotPass) {
   EXPECT_NE(complaint(same).find("program_path:"), std::string::npos) << complaint(same);
   EXPECT_NE(complaint(replaced(text, "OPERATION 2 OF 4", "COPY 2 OF 2", "COPY 1 OF 2")).find("refused:"),
             std::string::npos);
+}
+
+TEST(OperationsProgram, OfAWheelIsJudgedAsAWhole) {
+  PostJob post = folders().post();
+  post.folder = folders().wheel();
+  post.more_folders.clear(), post.operations.clear();
+  const PostOutcome posted = run_post(post);
+  ASSERT_EQ(posted.operations.size(), 4U);
+  const auto judged = [&](const std::string& text) {
+    VerifyJob job = folders().verify(text);
+    job.folder = folders().wheel();
+    job.more_folders.clear();
+    return job;
+  };
+  EXPECT_EQ(complaint(judged(posted.program)), "") << posted.program.substr(0, 1500);
+  if (kSanitized) return;
+  // A half that is left out, or run in rapid.
+  const std::string &text = posted.program, second = "(OPERATION 2 OF 4";
+  const std::size_t begin = text.find(second), end = text.find("(OPERATION 3 OF 4");
+  EXPECT_NE(complaint(judged(text.substr(0, begin) + text.substr(end))).find("refused:"), std::string::npos);
+  EXPECT_NE(complaint(judged(replaced(text, second, "G1 ", "G0 "))).find("operation 2 of 4"), std::string::npos);
+}
+
+TEST(OperationsProgram, AxesAreWrittenWithoutExponents) {
+  const CopyAxis axis{Vec3(-4e-16, 9.5e-5, 15.652), Vec3(-1e-17, 0.0, 1.0)};
+  EXPECT_EQ(copy_axis_text(axis), "0,0.000095,15.652,0,0,1");
+  EXPECT_EQ(parse_copy_axis(copy_axis_text(axis)).point.y(), 9.5e-5);
 }
 
 TEST(OperationsProgram, OfAPartThatIsNotTheSameWhenTurnedIsRefused) {

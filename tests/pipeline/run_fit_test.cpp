@@ -2,10 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "flank/error.h"
+#include "flank/part.h"
+#include "flank/run.h"
 #include "flank/setup/tool_body.h"
+#include "sanitized.h"
+#include "shared_data.h"
 
 namespace flank::internal {
 namespace {
@@ -118,6 +123,50 @@ TEST(RunFit, RefusesACurveOfAGivenTool) {
   job.tool.spec = "cone:radius=2,angle=3";
   job.stiffness_curve = true;
   EXPECT_THROW((void)run_fit(job), UsageError);
+}
+
+/// Every plan with a shank that is chosen for its path: the folder's job has it, it reaches out of the part, and it is told.
+template <class Job>
+void expect_chosen_shank(const Result& result, const std::string& part) {
+  const ObstacleRequest& chosen = std::get<Job>(result.job).obstacles;
+  EXPECT_EQ(chosen.shank, "given");
+  ASSERT_TRUE(chosen.shank_length_mm);
+  ASSERT_FALSE(result.tool.shank.empty());
+  ASSERT_FALSE(result.path.strips.empty());
+  const Box3 box = read_part(part).box;
+  for (const Strip& strip : result.path.strips)
+    for (const Pose& pose : strip.poses) {
+      const Vec3 end = pose.at(result.tool.shank.back().x());
+      EXPECT_TRUE((end.array() < box.low.array()).any() || (end.array() > box.high.array()).any());
+    }
+  EXPECT_TRUE(result.verify.clearance.kept());
+  EXPECT_EQ(std::count_if(result.notes.begin(), result.notes.end(),
+                          [](const std::string& note) { return note.starts_with("the shank was chosen: "); }),
+            1);
+}
+
+TEST(RunFit, ChoosesAShankForWhatItFound) {
+  if (kSanitized) GTEST_SKIP() << "a whole search";
+  FLANK_REAL_PART(blade, "r37_blade.step");
+  FitJob job;
+  job.part.file = blade;
+  job.part.faces = "F1";
+  job.tolerance_mm = 0.3;
+  job.obstacles.shank = "auto";
+  expect_chosen_shank<FitJob>(run_fit(job, {}), blade);
+}
+
+TEST(RunCover, ChoosesAShankForWhatItFound) {
+  if (kSanitized) GTEST_SKIP() << "a whole cover";
+  FLANK_REAL_PART(blade, "r37_blade.step");
+  CoverJob job;
+  job.part.file = blade;
+  job.part.faces = "F1";
+  job.tool.spec = "cylinder:radius=6";
+  job.tool.axis_length_mm = 60.0;
+  job.tolerance_mm = 0.3;
+  job.obstacles.shank = "auto";
+  expect_chosen_shank<CoverJob>(run_cover(job, {}), blade);
 }
 
 }  // namespace

@@ -103,7 +103,7 @@ TEST(LineStart, StopsAtTheMovabilityLimitAndSaysSo) {
   const LineStart start = start_from_line(*exact.target, off(exact, 0.5, 0.02), exact.motion.axis_length, options);
   EXPECT_EQ(start.report.status, LineStartStatus::kNoMotion);
   EXPECT_EQ(start.report.forward, PropagationEnd::kMovability);
-  EXPECT_NE(start.report.message.find("movability limit"), std::string::npos);
+  EXPECT_NE(start.report.message.find("no longer fits"), std::string::npos);
 }
 
 TEST(LineStart, KeepsTheAxisRigid) {

@@ -132,7 +132,7 @@ TEST(FamilyCoordinates, HaveLevelsThatSeeTheirTools) {
 
 TEST(FamilyText, NamesWhatIsSearched) {
   const std::string barrel = chart(ToolFamily::kBarrel, {}, hollow()).text();
-  EXPECT_NE(barrel.find("radius from a tenth of the axis to "), std::string::npos) << barrel;
+  EXPECT_NE(barrel.find("radius from a tenth of the axis length to "), std::string::npos) << barrel;
   EXPECT_NE(barrel.find("arc from -500 mm (concave) through straight to 20 mm"), std::string::npos) << barrel;
   EXPECT_EQ(chart(ToolFamily::kCone, {{"radius", 3.0}}, flat()).text(), "angle 0 to 20 degrees");
   EXPECT_EQ(chart(ToolFamily::kHyperbolic, {{"radius", 3.0}, {"bend", 0.0}}, flat()).text(), "slope -0.2 to 0.2");

@@ -55,10 +55,13 @@ function depthRows(verify) {
   list.push(row('gouge_mm', 'Gouge of other faces', tolerance, otherFaces(verify)));
   if (verify.depth === 'proved') list.push(row('gouge_bound_mm', 'Gouge of other faces, proved', tolerance, 'no other face is anywhere cut deeper'));
   else list.push(row('sampling_bound_mm', 'Between the samples', '', `between the ${verify.samples.toLocaleString('en')} samples a gouge may be deeper by at most this`));
+  if (verify.allowance_mm > 0)
+    list.unshift({ key: 'allowance_mm', name: 'Left on purpose', value: verify.allowance_mm, text: format.length(verify.allowance_mm, 3),
+      hint: 'asked for; gouge and excess are measured from the faces moved out by this' });
   const { buried = [] } = verify;
   list.push({ key: 'buried.count', figure: 'buried', asks: true, name: 'Passes inside the material', value: buried.length, text: buried.length ? String(buried.length) : 'none',
     hint: buried.length ? `pass ${buried[0].strip}, near ${at(buried[0].point)}` : 'no pass runs inside a solid or behind its sheet' });
-  list.push(row('undercut_covered_mm', 'Excess material, finished area', '', 'most material left where the tool passes over the face'),
+  list.push(row('undercut_covered_mm', 'Excess material, where the tool passes', '', 'most material left on the part of the face that a pass goes over, finished or not'),
     row('undercut_mm', 'Excess material, anywhere', '', 'most material left anywhere on the machined face'),
     row('rms_mm', 'RMS error', '', 'root mean square of the error where the tool passes over the face'));
   return list;
@@ -105,7 +108,7 @@ function stockRows(stock, cavity) {
   if (typeof stock.uncut_mm === 'number') list.push({ key: 'stock.uncut_mm', name: 'Material left between the sides', value: stock.uncut_mm, text: format.length(stock.uncut_mm, 3),
     hint: stock.uncut_mm > 0 && stock.uncut_point ? `longest stretch, before ${at(stock.uncut_point)}` : 'no material is left between them' });
   if (typeof stock.entered_mm === 'number') list.push({ key: 'stock.entered_mm', name: 'Gouge, simulated', value: stock.entered_mm, text: format.error(stock.entered_mm),
-    hint: 'how deep the simulated stock ends below a checked face' });
+    hint: 'deepest place where the simulated stock lies below a checked face' });
   list.push({ key: 'stock.left_mm3', name: 'Stock left', value: stock.left_mm3, text: `${format.plain(stock.left_mm3 / 1000, 4)}\u00a0cm³`,
     hint: `of ${format.plain(stock.before_mm3 / 1000, 4)} cm³ of the blank that lie in the range of the tool` });
   return list;

@@ -11,7 +11,7 @@ const REST = 500;
 /** What can be wanted: the roles of faces and the fields that they fill. */
 const COMMANDS = {
   fit: { name: 'Find a tool', help: 'The shape of the tool and its motion are found together, for this face.', roles: { machine: 'faces', protect: 'check_faces', ignore: 'ignore_faces' }, needed: ['machine'], skip: ['skin'] },
-  cover: { name: 'Given tool', help: 'Passes with which a tool of your choice finishes the face. The tool “catalogue” is the best one of the catalogue.', roles: { machine: 'faces', protect: 'check_faces', ignore: 'ignore_faces' }, needed: ['machine'], skip: ['skin'] },
+  cover: { name: 'Given tool', help: 'The passes with which a given tool finishes the face. The tool “catalogue” takes the best tool of the catalogue.', roles: { machine: 'faces', protect: 'check_faces', ignore: 'ignore_faces' }, needed: ['machine'], skip: ['skin'] },
   trochoid: { name: 'Cavity', help: 'One tool roughs and finishes the cavity between two sides.', roles: { left: 'left', right: 'right', floor: 'floor', protect: 'check_faces', ignore: 'ignore_faces' }, needed: ['left', 'right'], skip: ['faces', 'skin', 'side'] },
 };
 const SHORT = { faces: '--face', check_faces: '--check-faces', ignore_faces: '--ignore-faces', left: '--left', right: '--right', floor: '--floor' };

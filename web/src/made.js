@@ -13,7 +13,7 @@ export function made({ view, summary, verify }, program) {
   entries.push(['Program', programs.join(', ')]);
   if (summary) {
     entries.push(['Path', `${summary.strips} pass${summary.strips === 1 ? '' : 'es'}, ${summary.poses} CL points, chord error ${format.error(summary.chord_bound)}`]);
-    entries.push(['Machined face', `diagonal ${format.length(summary.diagonal)}; gouge relative to it ${format.plain((verify?.overcut_mm ?? summary.overcut) / summary.diagonal, 2)}`]);
+    entries.push(['Machined face', `diagonal ${format.length(summary.diagonal)}; gouge divided by it ${format.plain((verify?.overcut_mm ?? summary.overcut) / summary.diagonal, 2)}`]);
   }
   if (view) entries.push(['Part', `${view.part}, machined ${view.faces}`]);
   const notes = summary?.notes ?? [];

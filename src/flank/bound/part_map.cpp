@@ -169,8 +169,8 @@ std::string map_text(const PartMap& map) {
     }
     if (count > 0) text += fmt::format("  {:<15}{:3} faces, {:.4g} mm2:{}\n", kind_name(kind), count, area, ids);
   }
-  text += "  one pass: nothing proves that it is too few; not by flank: half of it is out of reach, or it takes " +
-          std::to_string(kMostFlankPasses) + " passes at least\n";
+  text += "  one pass: one may be enough; not by flank: half of the face is out of reach, or it needs " +
+          std::to_string(kMostFlankPasses) + " passes or more\n";
   for (const std::string& note : map.notes) text += "  note: " + note + "\n";
   return text;
 }

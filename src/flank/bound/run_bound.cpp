@@ -77,6 +77,13 @@ BoundResult run_bound(const BoundJob& request, const Progress& progress) {
   return result;
 }
 
+void require_inputs_kept(const BoundJob& job, const std::string& folder) {
+  const ReadFiles inputs = read_files(job);
+  const std::vector<std::string> names = job.map ? std::vector<std::string>{"map.json", "map.txt", "map.html"}
+                                                 : std::vector<std::string>{"bound.json", "bound.txt"};
+  for (const std::string& name : names) inputs.require_not_written((fs::path(folder) / name).string());
+}
+
 void write_bound(const BoundResult& result, const std::string& folder) {
   const ReadFiles inputs = read_files(result.job);
   const Unwritten unwritten(inputs);

@@ -142,7 +142,7 @@ std::vector<CoverStrip> smoothed(const TileScene& coarse, const TileScene& dense
 std::vector<CoverStrip> drop_redundant(const TileScene& dense, std::vector<CoverStrip> strips,
                                        const Progress& progress) {
   for (int k = 0; k < kDrops && dense.options.smooth && !progress.stop(); ++k) {
-    progress.step("thin out", kThinAt);
+    progress.step("drop redundant passes", kThinAt);
     CellCount covered(dense.samples);
     for (const CoverStrip& strip : strips) covered.add(strip);
     std::size_t least = 0;
@@ -160,7 +160,8 @@ std::vector<CoverStrip> drop_redundant(const TileScene& dense, std::vector<Cover
     if (!found) break;
     std::vector<CoverStrip> fewer = strips;
     fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(least));
-    fewer = kept_strips(progress, "thin out", dense.samples, [&] { return smooth_strips(dense, fewer).strips; });
+    fewer = kept_strips(progress, "drop redundant passes", dense.samples,
+                        [&] { return smooth_strips(dense, fewer).strips; });
     if (value_of(dense, fewer) <= value_of(dense, strips)) break;
     strips = std::move(fewer);
   }

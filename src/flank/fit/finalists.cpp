@@ -23,7 +23,7 @@ namespace {
 constexpr std::size_t kAbreast = 2;
 
 /// An envelope, found to the last digits.
-bool has_last_digits(const FitCandidate& candidate, const FlankFitOptions& options) {
+bool has_final_fit(const FitCandidate& candidate, const FlankFitOptions& options) {
   return candidate.polished.exact &&
          candidate.polished.estimate.overcut_mm <= exact_overcut(candidate.polished.draft, options.tolerance_mm);
 }
@@ -32,7 +32,7 @@ bool has_last_digits(const FitCandidate& candidate, const FlankFitOptions& optio
 void sort_by_rank(std::vector<FitCandidate>& candidates, const FlankFitOptions& options) {
   const auto place_of = [&](const FitCandidate& candidate) {
     return std::pair(candidate.enough,
-                     rank_of(candidate.polished.estimate, options, has_last_digits(candidate, options)));
+                     rank_of(candidate.polished.estimate, options, has_final_fit(candidate, options)));
   };
   std::stable_sort(candidates.begin(), candidates.end(),
                    [&](const FitCandidate& a, const FitCandidate& b) { return place_of(a) > place_of(b); });
@@ -70,7 +70,7 @@ double score_of(const FitCandidate& candidate, const FlankFitOptions& options) {
 void begin(FitCandidate& candidate, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options,
            const Progress& progress) {
   if (candidate.has_first_passes) return;
-  advance(candidate, progress, "first passes", [&](FitCandidate& next) {
+  advance(candidate, progress, "coarse fit", [&](FitCandidate& next) {
     const double before = score_of(next, options);
     next.polished = first_passes(next.polished, samples, options, &next.trace);
     next.has_first_passes = true;
@@ -82,7 +82,7 @@ void begin(FitCandidate& candidate, const std::vector<SurfaceSample>& samples, c
 /// The last passes of one candidate. They cost more than all before.
 void pass(FitCandidate& candidate, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options,
           const Progress& progress) {
-  advance(candidate, progress, "last passes", [&](FitCandidate& next) {
+  advance(candidate, progress, "fine fit", [&](FitCandidate& next) {
     // Of one that has only begun, what it gained by that counts.
     const double before = score_of(next, options) - (next.has_last_passes ? 0.0 : next.gained);
     // Once: a close look costs as much as a pass, and what it has called short is mostly short after the next as well.
@@ -208,9 +208,9 @@ std::vector<TriedTool> beaten_by_first(const std::vector<FitCandidate>& candidat
 }
 
 /// The winner, taken to the last digits where its target seems to be an envelope; as it was where that gains nothing.
-FitCandidate with_last_digits(const FitCandidate& winner, const std::vector<SurfaceSample>& samples,
-                              const FlankFitOptions& options) {
-  if (has_last_digits(winner, options)) return winner;
+FitCandidate with_final_fit(const FitCandidate& winner, const std::vector<SurfaceSample>& samples,
+                            const FlankFitOptions& options) {
+  if (has_final_fit(winner, options)) return winner;
   FitCandidate exact = winner;
   exact.polished = refine_exact_envelope(winner.polished, samples, options, &exact.trace);
   if (!exact.polished.exact) return winner;
@@ -248,8 +248,8 @@ void advance(FitCandidate& candidate, const Progress& progress, const char* step
   candidate = std::move(next);
 }
 
-Polished looked_at_closely(const Polished& polished, const std::vector<SurfaceSample>& samples,
-                           const FlankFitOptions& options) {
+Polished measured_closely(const Polished& polished, const std::vector<SurfaceSample>& samples,
+                          const FlankFitOptions& options) {
   return repair_closely(without_overcut(polished, samples, options), options);
 }
 
@@ -258,7 +258,7 @@ void settle_if_enough(FitCandidate& candidate, const std::vector<SurfaceSample>&
   const double score = candidate.polished.estimate.score(options.tolerance_mm);
   if (!meets(candidate.polished.estimate, options.enough_coverage, options) || score == candidate.failed_close_score)
     return;
-  Polished close = looked_at_closely(candidate.polished, samples, options);
+  Polished close = measured_closely(candidate.polished, samples, options);
   candidate.enough = meets(close.estimate, options.enough_coverage, options);
   close.exact = candidate.polished.exact;
   if (candidate.enough) {
@@ -271,7 +271,7 @@ void settle_if_enough(FitCandidate& candidate, const std::vector<SurfaceSample>&
 
 void look_closely(FitCandidate& candidate, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
   const bool known = candidate.close && score_of(candidate, options) == candidate.failed_close_score;
-  candidate.polished = known ? *candidate.close : looked_at_closely(candidate.polished, samples, options);
+  candidate.polished = known ? *candidate.close : measured_closely(candidate.polished, samples, options);
 }
 
 FitCandidate run_finalists(const std::vector<FitDraft>& starts, const std::vector<SurfaceSample>& samples,
@@ -286,12 +286,11 @@ FitCandidate run_finalists(const std::vector<FitDraft>& starts, const std::vecto
   FitCandidate winner = std::move(candidates.front());
   pass_again(winner, samples, options, progress);
   if (!winner.enough)
-    advance(winner, progress, "partial passes", [&](FitCandidate& next) {
+    advance(winner, progress, "partial fit", [&](FitCandidate& next) {
       next.polished = partial_polish(next.polished, samples, options, &next.trace);
       settle_if_enough(next, samples, options);
     });
-  advance(winner, progress, "last digits",
-          [&](FitCandidate& next) { next = with_last_digits(next, samples, options); });
+  advance(winner, progress, "final fit", [&](FitCandidate& next) { next = with_final_fit(next, samples, options); });
   winner.beaten = beaten_by_first(candidates, options.bounds);
   return winner;
 }

@@ -35,8 +35,8 @@ void advance(FitCandidate& candidate, const Progress& progress, const char* step
              const std::function<void(FitCandidate&)>& work);
 
 /// The last word on a fit: overcut of a given tool taken out, and settled (swept_polish.h, polish.h).
-[[nodiscard]] Polished looked_at_closely(const Polished& polished, const std::vector<SurfaceSample>& samples,
-                                         const FlankFitOptions& options);
+[[nodiscard]] Polished measured_closely(const Polished& polished, const std::vector<SurfaceSample>& samples,
+                                        const FlankFitOptions& options);
 
 /// Settles the candidate if it seems to be enough, and keeps that if it still is: samples that rank see no rim that is a
 /// little short. What has been called short stays so.

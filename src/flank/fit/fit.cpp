@@ -220,7 +220,7 @@ QuickStarts quick_starts(const Target& target, const ToolModel& tool, const Flan
 
 void look_closely(FitCandidate& runner, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options,
                   const Progress& progress) {
-  advance(runner, progress, "close look", [&](FitCandidate& next) { internal::look_closely(next, samples, options); });
+  advance(runner, progress, "close check", [&](FitCandidate& next) { internal::look_closely(next, samples, options); });
 }
 
 /// From all starts to one result, with options.obstacles in the way from the beginning.
@@ -233,7 +233,7 @@ FlankFitResult search_starts(const Target& target, const ToolModel& tool, const 
   result.candidates = quick.tried;
   if (!quick.touching) {
     result.status = FitStatus::kNoStart;
-    result.message = "no ruled start touches the machined face within four tolerances";
+    result.message = "no straight start of the motion comes within four tolerances of the machined face";
   }
   if (quick.drafts.empty()) return result;
   progress.step("polish", 0.5);
@@ -291,7 +291,7 @@ FlankFitResult polish_starts(const std::vector<FitTask>& tasks, const ToolModel&
   });
   progress.step("fit", 0.5);
   if (!only.enough) {
-    advance(only, progress, "last passes",
+    advance(only, progress, "fine fit",
             [&](FitCandidate& next) { next.polished = last_passes(next.polished, samples, options, &next.trace); });
     look_closely(only, samples, options, progress);
   }
@@ -321,7 +321,7 @@ FlankFitResult fit_as_found(const std::vector<FitTask>& tasks, const RadialFunct
   FLANK_ASSERT(!tasks.empty());
   FitDraft draft = make_draft(tasks, tool, options);
   draft.tool = found;
-  return make_result(looked_at_closely(draft, options), options, {});
+  return make_result(measured_closely(draft, options), options, {});
 }
 
 FlankFitResult fit_together(const std::vector<FitTask>& tasks, const RadialFunction& found, const ToolModel& tool,
@@ -340,7 +340,7 @@ FlankFitResult with_close_look(const std::vector<FitTask>& tasks, const FlankFit
   draft.motions = found.motions;
   draft.tool = found.tool;
   const Polished polished = assess(std::move(draft), samples, options);
-  FlankFitResult result = make_result(looked_at_closely(polished, samples, options), options, found);
+  FlankFitResult result = make_result(measured_closely(polished, samples, options), options, found);
   result.closely_measured = true;
   return result;
 }
@@ -352,7 +352,7 @@ std::optional<FlankFitResult> mend_fit(const std::vector<FitTask>& tasks, const 
   FitDraft draft = make_draft(tasks, tool, options);
   draft.motions = found.motions;
   draft.tool = found.tool;
-  const Polished before = looked_at_closely(draft, options);
+  const Polished before = measured_closely(draft, options);
   const Polished after = repair_closely(before, options);
   if (!is_better(after.estimate, before.estimate, options)) return std::nullopt;
   return make_result(after, options, found);

@@ -54,7 +54,7 @@ void code(StepCodec& codec, FlankFitResult& fit) {
   code(codec, fit.tried);
   code_choice(codec, fit.unobstructed_search, 4);
   code(codec, fit.closely_measured);
-  codec.require(fit.motions.empty() || fit.tool.axis_length() > 0.0, "motions need a tool");
+  codec.require(fit.motions.empty() || fit.tool.axis_length() > 0.0, "expected a tool with its motions");
 }
 
 void code(StepCodec& codec, FitDraft& draft) {
@@ -63,7 +63,7 @@ void code(StepCodec& codec, FitDraft& draft) {
   code(codec, draft.free_parameters);
   code(codec, draft.free_tool);
   code(codec, draft.facing);
-  codec.require(draft.motions.empty() || draft.tool.axis_length() > 0.0, "motions need a tool");
+  codec.require(draft.motions.empty() || draft.tool.axis_length() > 0.0, "expected a tool with its motions");
   for (const int index : draft.free_parameters)
     codec.require(index >= 0 && index < draft.tool.parameter_count(), "expected a free parameter that the tool has");
 }

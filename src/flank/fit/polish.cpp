@@ -322,7 +322,7 @@ Polished repair_closely(const Polished& polished, const FlankFitOptions& options
   return cheap || is_better(lower.estimate, again.estimate, options) ? lower : again;
 }
 
-Polished looked_at_closely(const FitDraft& draft, const FlankFitOptions& options) {
+Polished measured_closely(const FitDraft& draft, const FlankFitOptions& options) {
   return seen_closely(draft, close_samples(draft, options), options);
 }
 

@@ -40,7 +40,7 @@ inline constexpr double kMendable = 5.0;
 [[nodiscard]] Polished repair_closely(const Polished& polished, const FlankFitOptions& options);
 
 /// The draft, assessed with the samples of the last look.
-[[nodiscard]] Polished looked_at_closely(const FitDraft& draft, const FlankFitOptions& options);
+[[nodiscard]] Polished measured_closely(const FitDraft& draft, const FlankFitOptions& options);
 
 /// Fills a result from the chosen draft: validation with cold footpoints, status, message. What `result` holds already
 /// (before, trace, candidates) stays.

@@ -41,6 +41,26 @@ Polished with_pass(const Polished& best, const SweptPass& pass, const std::vecto
   return trial.estimate.score(options.tolerance_mm) > best.estimate.score(options.tolerance_mm) ? trial : best;
 }
 
+/// Of a pass that takes an envelope to its last digits.
+FitStage envelope_stage(bool last, const FlankFitOptions& options, double size) {
+  // Where the face holds no pose, past its ends, these alone keep the rails from waving, and leave 2e-8 and 3e-8 of the size elsewhere.
+  constexpr double kFirstFairness = 1e-7, kLastFairness = 1e-6;
+  constexpr int kIterations = 30;
+  FitStage stage = swept_stage(kMean, options, size);
+  const FitStage exact = exact_stage(last);
+  stage.control_points = exact.control_points;
+  stage.samples_t = exact.samples_t;
+  stage.samples_s = exact.samples_s;
+  stage.fairness = last ? kLastFairness : kFirstFairness;
+  stage.tool_fairness = exact.tool_fairness;
+  stage.axial_pin = exact.axial_pin;
+  stage.plunge_weight = stage.lag_weight = 0.0;
+  stage.overcut_weight = 1.0;
+  stage.iterations = kIterations;
+  stage.step_tolerance = exact.step_tolerance;
+  return stage;
+}
+
 }  // namespace
 
 Polished swept_polish(const Polished& polished, const std::vector<SurfaceSample>& samples,
@@ -77,28 +97,19 @@ Polished first_passes(const Polished& polished, const std::vector<SurfaceSample>
 Polished refine_exact_envelope(const Polished& polished, const std::vector<SurfaceSample>& samples,
                                const FlankFitOptions& options, std::vector<IterationTrace>* trace) {
   constexpr double kEnvelope = 3e-5;  // of the size, as kExactShare (polish.cpp) at the axis
-  constexpr int kIterations = 30;
+  // A given tool was lifted out of all overcut: its mean error is that of the lift, and says less of what is possible.
+  constexpr double kLifted = 1e-4;
   constexpr double kEnvelopeGains = 0.9;   // of the mean error, at most, after a pass: else it is no envelope
   constexpr double kNearlyCovered = 0.98;  // by the samples: what misses more has something else to mend first
   const double size = polished.draft.targets.front()->diagonal();
   const CoverageEstimate& estimate = polished.estimate;
-  if (stopping() || estimate.at_tolerance < kNearlyCovered || estimate.rms_mm > kEnvelope * size) return polished;
+  const double nearest = polished.draft.free_tool ? kEnvelope : kLifted;
+  if (stopping() || estimate.at_tolerance < kNearlyCovered || estimate.rms_mm > nearest * size) return polished;
   const std::vector<FacePoint> points = target_points(polished.draft, kMean.points_per_side, reach_of(options));
   Polished best = polished, trial = polished;
   for (const bool last : {false, true}) {
     if (stopping()) break;
-    FitStage stage = swept_stage(kMean, options, size);
-    const FitStage exact = exact_stage(last);
-    stage.control_points = exact.control_points;
-    stage.samples_t = exact.samples_t;
-    stage.samples_s = exact.samples_s;
-    stage.fairness = exact.fairness;
-    stage.tool_fairness = exact.tool_fairness;
-    stage.axial_pin = exact.axial_pin;
-    stage.plunge_weight = stage.lag_weight = 0.0;
-    stage.overcut_weight = 1.0;
-    stage.iterations = kIterations;
-    stage.step_tolerance = exact.step_tolerance;
+    const FitStage stage = envelope_stage(last, options, size);
     trial = assess(run_swept(trial.draft, options.bounds, stage, points, trace), samples, options);
     const CoverageEstimate &now = trial.estimate, &before = best.estimate;
     if (now.rms_mm > kEnvelopeGains * before.rms_mm) break;

@@ -77,6 +77,7 @@ class Builder {
   }
 
   TriangleMesh take() { return std::move(mesh_); }
+  std::vector<Vec2> take_parameters() { return std::move(parameters_); }
 
  private:
   static std::vector<Vec2> corners(const ParameterRectangle& r) {
@@ -130,13 +131,17 @@ class Builder {
   int vertex(const Vec2& q) {
     // Equal to the bit: neighbouring cells compute a common corner from the same numbers (part, grid_lines).
     const auto [entry, is_new] = index_.try_emplace({q.x(), q.y()}, static_cast<int>(mesh_.vertices.size()));
-    if (is_new) mesh_.vertices.push_back(face_.surface.value(q.x(), q.y()));
+    if (is_new) {
+      mesh_.vertices.push_back(face_.surface.value(q.x(), q.y()));
+      parameters_.push_back(q);
+    }
     return entry->second;
   }
 
   const Face& face_;
   const TrimRegion& region_;
   TriangleMesh mesh_;
+  std::vector<Vec2> parameters_;
   std::map<std::pair<double, double>, int> index_;
 };
 
@@ -171,6 +176,7 @@ Tessellation tessellate(const Face& face, const TessellationOptions& options) {
     for (std::size_t i = 0; i + 1 < us.size(); ++i) builder.add_cell({us[i], us[i + 1], vs[j], vs[j + 1]});
   Tessellation out;
   out.mesh = builder.take();
+  out.parameters = builder.take_parameters();
   std::vector<TrimLoop> loops = face.loops;
   // The rim of the whole surface: every face has a border to be drawn.
   if (loops.empty()) loops.push_back(rectangle_loop(domain));

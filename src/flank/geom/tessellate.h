@@ -17,6 +17,7 @@ struct TessellationOptions {
 
 struct Tessellation {
   TriangleMesh mesh;                       ///< counter-clockwise seen against the outward normal
+  std::vector<Vec2> parameters;            ///< of each vertex
   std::vector<std::vector<Vec3>> borders;  ///< the loops of the face as polylines
 };
 

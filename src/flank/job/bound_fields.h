@@ -31,10 +31,9 @@ void visit_fields(Job& job, Visitor&& visit) {
                   kAny, Spelling::kFlag},
         job.map);
   visit(FieldInfo{"points", "", "",
-                  "About how many points of each face, with --map of the part, get a bound of the longest contact",
-                  kPoints},
+                  "Approximate number of points, with --map for each face, whose longest contact is bounded", kPoints},
         job.points);
-  visit(FieldInfo{"gap", "", "", "Accept a bound that is at most this share above the contact found there", kGap},
+  visit(FieldInfo{"gap", "", "", "Stop when the bound is at most this share above the longest contact found", kGap},
         job.gap);
   visit_other_faces(job, visit);
 }

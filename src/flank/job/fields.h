@@ -118,8 +118,8 @@ template <class Job, class T>
 concept Is = std::same_as<std::remove_const_t<Job>, T>;
 
 inline constexpr std::string_view kSideHelp =
-    "Machined side of an open sheet: + (towards the normal in the file) or -. Default: the outside of what encloses a "
-    "space, else +";
+    "Machined side of an open sheet: + (towards the normal in the file) or -. Default: the outside where the faces "
+    "enclose a space, else +";
 
 template <class Visitor, Is<PartRequest> Request>
 void visit_part(Request& part, Visitor& visit) {
@@ -170,7 +170,7 @@ void visit_obstacles(Request& obstacles, Visitor& visit) {
                   Spelling::kFile, "--fixture"},
         obstacles.fixtures);
   visit(FieldInfo{"fixture_unit", "", kAbove,
-                  "Unit of fixtures that are meshes: mm, cm, m or in; default: `unit`, where the job has it", kUnit},
+                  "Unit of fixtures that are meshes: mm, cm, m or in; default: that given for the part", kUnit},
         obstacles.fixture_unit);
   visit(FieldInfo{"clearance", "mm", kAbove,
                   "Smallest distance of the holder from the part, of the shank from the faces that are not machined, "
@@ -188,6 +188,11 @@ inline constexpr std::string_view kBendHelp =
 inline constexpr std::string_view kToleranceHelp =
     "Allowed deviation of the machined face, both ways. Default: a thousandth of the diagonal of the machined faces, "
     "rounded down to 1, 2 or 5 times a power of ten, from 0.005 to 0.5 mm";
+
+inline constexpr std::string_view kAllowanceHelp =
+    "Material left on purpose, for a later pass: the machined faces and all other faces of the part count as moved "
+    "outwards "
+    "by this, in planning and in the check. Default: 0";
 
 inline constexpr std::string_view kCutHelp =
     "climb or conventional milling, in every pass; the spindle turns clockwise seen from the holder";
@@ -258,6 +263,7 @@ void visit_fields(Job& job, Visitor&& visit) {
                   kAny, Spelling::kFileOrText},
         job.tool.spec);
   visit(FieldInfo{"tolerance", "mm", "", kToleranceHelp, kLength}, job.tolerance_mm);
+  visit(FieldInfo{"allowance", "mm", "", kAllowanceHelp, kDistance}, job.part.allowance_mm);
   visit(FieldInfo{"axis_length", "mm", "",
                   "Length of the tool's axis, tip centre to upper end. Default: as the face needs", kLength},
         job.tool.axis_length_mm);
@@ -296,7 +302,7 @@ void visit_choice(Request& choice, Visitor& visit) {
                   kAny, Spelling::kFile},
         choice.catalogue);
   visit(FieldInfo{"finalists", "", kGroup,
-                  "Number of tools whose passes are finished in full; the others are compared by unfinished passes",
+                  "Number of tools whose passes are planned in full; the others are compared by a quick plan",
                   kFinalists},
         choice.finalists);
   visit(FieldInfo{"feed", "mm/min", kGroup, "Feed along the passes, for the machining time in the ranking", kRate},
@@ -321,6 +327,7 @@ void visit_fields(Job& job, Visitor&& visit) {
                   kLength},
         job.tool.axis_length_mm);
   visit(FieldInfo{"tolerance", "mm", "", kToleranceHelp, kLength}, job.tolerance_mm);
+  visit(FieldInfo{"allowance", "mm", "", kAllowanceHelp, kDistance}, job.part.allowance_mm);
   visit(FieldInfo{"strategy", "", "", "How passes are found: grow, or curves (the published method, to compare)",
                   kStrategy},
         job.strategy);
@@ -354,8 +361,8 @@ void visit_nc(Request& nc, Visitor& visit) {
         nc.setup);
   visit(FieldInfo{"tool", "", kGroup, "Tool file of the program. Default: that of DIR", kAny, Spelling::kFile},
         nc.tool);
-  visit(FieldInfo{"faces", "", kGroup, "Faces that it machines. Default: those of DIR, else F1", kAny, Spelling::kPlain,
-                  "--face"},
+  visit(FieldInfo{"faces", "", kGroup, "Faces that the program machines. Default: those of DIR, else F1", kAny,
+                  Spelling::kPlain, "--face"},
         nc.faces);
   visit(
       FieldInfo{
@@ -363,7 +370,8 @@ void visit_nc(Request& nc, Visitor& visit) {
           "Work offset that holds the set-up; 1 is G54. Default: the one in the header, else in the machine's file",
           kWorkOffset},
       nc.work_offset);
-  visit(FieldInfo{"tool_number", "", kGroup, "Number of the tool of DIR. Default: the one in the header", kToolNumber},
+  visit(FieldInfo{"tool_number", "", kGroup, "Number of the tool in the program. Default: the one in its header",
+                  kToolNumber},
         nc.tool_number);
   visit(FieldInfo{"follow", "", kGroup,
                   "path: the program must cut the whole path of DIR in its order; any: only what it cuts counts",
@@ -377,7 +385,7 @@ void visit_operations(Job& job, Visitor& visit) {
   using namespace accepted;
   constexpr std::string_view kGroup = "Operations";
   visit(FieldInfo{"operations", "", kGroup,
-                  "What holds for one operation alone, NUMBER:KEY=VALUE,...: name, tool (number), length (mm), spindle "
+                  "Settings of one operation, NUMBER:KEY=VALUE,...: name, tool (number), length (mm), spindle "
                   "(1/min), feed (mm/min), flutes; as 2:name=finish,tool=7. May be given several times",
                   kAny, Spelling::kPlain, "--operation"},
         job.operations);
@@ -414,20 +422,20 @@ void visit_fields(Job& job, Visitor&& visit) {
                   "in degrees. Default: found, so that the machine reaches everything",
                   kAny},
         job.setup);
-  visit(FieldInfo{"feed", "mm/min", "",
-                  "Feed of the contact along the passes; required, except for a dry run (1000) and --speed optimal",
-                  kRate},
-        job.feed_mm_min);
   visit(
       FieldInfo{
-          "clamp", "", "",
-          "How the part is clamped, for a set-up that is found: any way up; bottom, its Z axis up; bore, --copy-axis "
-          "(default: its Z axis) up and on the axis of the table",
-          kClamp},
-      job.clamp);
+          "feed", "mm/min", "",
+          "Feed rate of the contact point along the passes; required, except for a dry run (1000) and --speed optimal",
+          kRate},
+      job.feed_mm_min);
+  visit(FieldInfo{"clamp", "", "",
+                  "How the part is clamped, for a set-up that is found. any: any way up; bottom: its Z axis up; bore: "
+                  "--copy-axis (default: its Z axis) up and on the axis of the table",
+                  kClamp},
+        job.clamp);
   visit(FieldInfo{"speed", "", "",
-                  "feed: at --feed as far as the axes can, in a cavity adapted to the engagement so that the thickest "
-                  "chip stays the same; constant: at --feed; optimal: as fast as the axes can",
+                  "feed: --feed, slower where the axes need it, and in a cavity adapted to the engagement so that the "
+                  "thickest chip stays the same; constant: --feed everywhere; optimal: as fast as the axes can",
                   kSpeed},
         job.speed);
   visit(FieldInfo{"most_feed", "mm/min", "",
@@ -517,6 +525,7 @@ void visit_fields(Job& job, Visitor&& visit) {
                   kAny, Spelling::kFileOrText},
         job.tool.spec);
   visit(FieldInfo{"tolerance", "mm", "", kToleranceHelp, kLength}, job.tolerance_mm);
+  visit(FieldInfo{"allowance", "mm", "", kAllowanceHelp, kDistance}, job.part.allowance_mm);
   visit(FieldInfo{"axis_length", "mm", "",
                   "Length of the tool's axis, tip centre to upper end. Default: as a layer needs", kLength},
         job.tool.axis_length_mm);

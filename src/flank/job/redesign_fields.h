@@ -27,23 +27,22 @@ void visit_fields(Job& job, Visitor&& visit) {
   visit(FieldInfo{"axis_length", "mm", "",
                   "Length of the tool's axis, tip centre to upper end. Default: as the face needs", kLength},
         job.tool.axis_length_mm);
-  visit(
-      FieldInfo{"weight", "", "",
-                "How much deviation near a border counts, as le=10,root=0.2: le, te, root, tip, or a neighbouring face "
-                "(F7=3). Elsewhere: 1"},
-      job.weight);
+  visit(FieldInfo{"weight", "", "",
+                  "Weight of the deviation near a border, as le=10,root=0.2: le, te, root, tip, or a neighbouring face "
+                  "(F7=3). Elsewhere: 1"},
+        job.weight);
   visit(FieldInfo{"thickness_min", "mm", "",
                   "The blade gets nowhere thinner than this, and where it is thinner already, no thinner. Default: any",
                   kLength},
         job.thickness_min_mm);
-  visit(FieldInfo{"nearest", "", "", "What is made small: mean, the mean square deviation, or largest, the largest one",
-                  kNearest},
+  visit(FieldInfo{"nearest", "", "",
+                  "What is minimised: mean, the mean square deviation, or largest, the largest deviation", kNearest},
         job.nearest);
   visit(FieldInfo{"heights", "", "", "Heights of the section tables, percent from root to tip"}, job.heights);
   visit(FieldInfo{"effort", "", "", "How long to search for the tool and the motion to start from", kEffort},
         job.effort);
   visit(FieldInfo{"tolerance", "mm", "",
-                  "Scale of the search, and limit in the deviation map. Default: as of flank fit", kLength},
+                  "Tolerance of the first search, and limit in the deviation map. Default: as in flank fit", kLength},
         job.tolerance_mm);
   visit_radius(job.radius, visit);
   visit_other_faces(job, visit);

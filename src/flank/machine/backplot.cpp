@@ -8,6 +8,7 @@
 
 #include "flank/error.h"
 #include "flank/machine/links.h"
+#include "flank/path/joined_pose.h"
 
 namespace flank::internal {
 namespace {
@@ -217,7 +218,7 @@ class Backplotter {
       const double needed = std::abs(end.joints[k] - before_.joints[k]) / std::max(seconds, 1e-12);
       if (needed <= joint.speed * (1.0 + kSpeedSlack)) continue;
       note(result_.speed, {move.line, joint.name,
-                           fmt::format("joint {} would have to run at {:.4g} {}/s, its speed is {:.4g}", joint.name,
+                           fmt::format("joint {} would have to run at {:.4g} {}/s, its limit is {:.4g}", joint.name,
                                        in_units(joint, needed), joint.kind == JointKind::kRotary ? "degrees" : "mm",
                                        in_units(joint, joint.speed))});
     }

@@ -34,11 +34,6 @@ class ControlMotion {
   NcJoin join_;
 };
 
-/// Straight joins of poses, as paths have them: the tip and the unnormalised axis run linearly.
-[[nodiscard]] Pose joined_pose(const Pose& from, const Pose& to, double t);
-/// Bound of |d^2 u/dt^2| of such a join, radians.
-[[nodiscard]] double joined_bend(const Pose& from, const Pose& to);
-
 /// The angles that turn the tool into a direction, nearest to `near` of both solutions and all turns.
 [[nodiscard]] RotaryValues nearest_rotary(const Kinematics& kinematics, const Vec3& direction,
                                           const RotaryValues& near);

@@ -298,7 +298,8 @@ void Planner::stretch(FeedPlan& plan) const {
 }  // namespace
 
 FeedPlan plan_feed(const Machine& machine, std::span<const FeedNode> nodes, double rounding) {
-  if (nodes.size() < 2 || !(rounding > 0.0)) throw InternalError("a feed needs two nodes, and room to round corners");
+  if (nodes.size() < 2 || !(rounding > 0.0))
+    throw InternalError("a feed needs at least two nodes and a corner tolerance > 0");
   return Planner(machine, nodes, rounding).run();
 }
 

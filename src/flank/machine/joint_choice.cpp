@@ -33,8 +33,8 @@ bool endless(const Joint& joint) { return !(joint.high - joint.low < kManyTurns)
 /// The search over layers of states, one layer a pose.
 class Choice {
  public:
-  Choice(const Machine& machine, const Kinematics& kinematics, std::span<const MachinePose> poses)
-      : machine_(machine), kinematics_(kinematics), poses_(poses) {
+  Choice(const Machine& machine, const Kinematics& kinematics, std::span<const MachinePose> poses, double cone)
+      : machine_(machine), kinematics_(kinematics), poses_(poses), cone_(cone) {
     for (std::size_t k = 0; k < 2; ++k) joint_[k] = &machine.joints[kinematics.rotary_joints()[k]];
   }
 
@@ -133,9 +133,11 @@ class Choice {
   /// step.
   void add_joined(std::size_t pose, int solution, const RotarySolutions& solutions) {
     const RotaryValues& rotary = solutions.values[static_cast<std::size_t>(solution)];
+    const bool changes = kinematics_.sine_to_first(poses_[pose - 1].pose.axis, poses_[pose].pose.axis) <= cone_;
     std::optional<bool> inside;  // the same for all turns, but where the first angle is free
     for (std::size_t i = 0; i < layers_[pose - 1].size(); ++i) {
       const State& from = layers_[pose - 1][i];
+      if (from.solution != solution && !changes) continue;
       const RotaryValues to{solutions.singular ? from.rotary[0] : nearest(rotary[0], from.rotary[0]),
                             nearest(rotary[1], from.rotary[1])};
       if (!rotary_inside(0, to[0]) || !rotary_inside(1, to[1]) || !runs_along(pose, from.rotary, to)) continue;
@@ -222,6 +224,7 @@ class Choice {
   const Machine& machine_;
   const Kinematics& kinematics_;
   std::span<const MachinePose> poses_;
+  double cone_;
   std::array<const Joint*, 2> joint_{};
   std::vector<std::vector<State>> layers_;
 };
@@ -240,9 +243,10 @@ std::string travel_violation(const Machine& machine, const JointValues& q, std::
   return {};
 }
 
-JointChoice choose_joints(const Machine& machine, const Kinematics& kinematics, std::span<const MachinePose> poses) {
+JointChoice choose_joints(const Machine& machine, const Kinematics& kinematics, std::span<const MachinePose> poses,
+                          double cone) {
   if (poses.empty()) return {};
-  JointChoice choice = Choice(machine, kinematics, poses).run();
+  JointChoice choice = Choice(machine, kinematics, poses, cone).run();
   // Endless joints were not held to their travel in the search; here everything is, once more.
   for (std::size_t k = 0; k < choice.joints.size(); ++k) {
     std::string joint;

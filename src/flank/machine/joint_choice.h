@@ -31,9 +31,11 @@ struct JointChoice {
 };
 
 /// The cheapest choice that keeps all travels and, where poses are joined, runs as the path does: dynamic programming over
-/// both solutions and all turns within the travel; the price of a step is its time at the rotary joints' speeds.
+/// both solutions and all turns within the travel; the price of a step is its time at the rotary joints' speeds. The solution
+/// changes only where the path passes the singular direction within `cone` (sine of an angle, > 0): past it on one side, the
+/// joints would have to jump, and the first one turns half round instead.
 [[nodiscard]] JointChoice choose_joints(const Machine& machine, const Kinematics& kinematics,
-                                        std::span<const MachinePose> poses);
+                                        std::span<const MachinePose> poses, double cone = Kinematics::kSingularSine);
 
 /// "joint Y would stand at 512.3, its travel is -500 to 500"; empty where all joints keep their travel.
 [[nodiscard]] std::string travel_violation(const Machine& machine, const JointValues& q, std::string* joint = nullptr);

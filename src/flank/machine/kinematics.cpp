@@ -133,6 +133,15 @@ RotarySolutions Kinematics::rotary(const Vec3& direction, double first) const {
   return solutions;
 }
 
+double Kinematics::sine_to_first(const Vec3& from, const Vec3& to) const {
+  const Vec3 &a = links_[rotary_[0]].direction, along = to - from;
+  // Across the axis the join is a straight line, and what matters is its place nearest to the axis.
+  const Vec3 start = from - a.dot(from) * a, across = along - a.dot(along) * a;
+  const double squared = across.squaredNorm();
+  const double t = squared > 0.0 ? std::clamp(-start.dot(across) / squared, 0.0, 1.0) : 0.0;
+  return sine_to_first((from + t * along).normalized());
+}
+
 Eigen::Isometry3d Kinematics::link(const JointValues& q, std::size_t joints) const {
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
   for (std::size_t k = 0; k < joints; ++k) {

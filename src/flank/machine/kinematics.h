@@ -53,6 +53,8 @@ class Kinematics {
   [[nodiscard]] double sine_to_first(const Vec3& direction) const {
     return direction.cross(links_[rotary_[0]].direction).norm();
   }
+  /// The least of it over all directions from one to another, which run linearly but for their length.
+  [[nodiscard]] double sine_to_first(const Vec3& from, const Vec3& to) const;
   /// The motion of what `joints` joints lie before, 0 to kJointCount, from where all joints are zero to q: in the frame of
   /// the work.
   [[nodiscard]] Eigen::Isometry3d link(const JointValues& q, std::size_t joints) const;

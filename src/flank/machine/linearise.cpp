@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flank/path/joined_pose.h"
+
 namespace flank::internal {
 namespace {
 
@@ -145,7 +147,7 @@ class Lineariser {
     const RotaryValues middle{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
     if (control_.states_rotary()) {
       const Vec3 turned = kinematics_.direction(middle);
-      if ((turned - plan.axis).norm() * (span_.high - span_.low) <= kConeShare * options_.deviation) {
+      if ((turned - plan.axis).norm() <= singular_cone(span_, options_.deviation)) {
         const Vec3 tip = plan.tip - span_.low * turned;
         return {{tip, turned}, kinematics_.joints(tip, middle)};
       }
@@ -180,6 +182,8 @@ class Lineariser {
 };
 
 }  // namespace
+
+double singular_cone(const ToolSpan& span, double deviation) { return kConeShare * deviation / (span.high - span.low); }
 
 LinearisedStrip linearise(const Kinematics& kinematics, const ControlMotion& control, std::span<const Pose> poses,
                           std::span<const JointValues> joints, const ToolSpan& span, const LineariseOptions& options) {

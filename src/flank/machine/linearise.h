@@ -21,6 +21,10 @@ struct LineariseOptions {
   std::size_t most_blocks = 5'000'000;  ///< beyond it the path is refused
 };
 
+/// The sine of the angle from the singular direction within which a direction may be taken as singular: the flank is off by less than
+/// a share of the deviation then.
+[[nodiscard]] double singular_cone(const ToolSpan& span, double deviation);
+
 /// One strip as blocks. Blocks end at planned poses, or between them where the control needs more.
 struct LinearisedStrip {
   std::vector<BlockEnd> blocks;  ///< the first is where the strip begins

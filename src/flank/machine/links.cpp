@@ -253,7 +253,7 @@ void append_known(std::vector<double>& known, const std::vector<double>& next) {
 
 KnownPath joined(const KnownPath& given) {
   constexpr double kSame = 1e-9;
-  if (given.known.size() != given.path.strips.size()) throw InternalError("values of other strips");
+  if (given.known.size() != given.path.strips.size()) throw InternalError("the values belong to other passes");
   KnownPath chains;
   for (std::size_t k = 0; k < given.path.strips.size(); ++k) {
     const Strip& strip = given.path.strips[k];

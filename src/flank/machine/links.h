@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "flank/path.h"
+#include "flank/path/strip_kind.h"
 
 namespace flank::internal {
 
@@ -31,8 +32,6 @@ struct LinkOptions {
   /// One for each strip, in the part's frame.
   std::vector<Lead> lead_at_start, lead_at_end;
 };
-
-inline constexpr const char* kLinkKind = "link";
 
 /// A path of which some is known at each pose: one value a pose of each strip; an empty list where it is not known.
 struct KnownPath {

@@ -10,6 +10,7 @@
 #include "flank/machine/feed.h"
 #include "flank/machine/links.h"
 #include "flank/machine/nc/write/timed_blocks.h"
+#include "flank/path/joined_pose.h"
 
 namespace flank::internal {
 namespace {
@@ -36,7 +37,7 @@ class Poster {
 
   Post run() {
     place_poses();
-    const JointChoice choice = choose_joints(machine_, kinematics_, poses_);
+    const JointChoice choice = choose_joints(machine_, kinematics_, poses_, singular_cone(span_, options_.deviation));
     note_least_sine();
     post_.flips = choice.flips;
     if (choice.unreachable) return refused(*choice.unreachable);

@@ -2,46 +2,54 @@
 
 #include <fmt/format.h>
 
-#include "flank/part.h"
-#include "flank/setup/read_setup.h"
+#include <algorithm>
+
+#include "flank/results/acceptance.h"
 #include "flank/setup/shank_reach.h"
 
 namespace flank::internal {
 namespace {
 
-/// A path that takes the shank may need a longer one: looked at so often.
-constexpr int kMostTimes = 3;
+/// The progress of one of several plans, a share of the whole: its steps are in no journal.
+Progress run_of_its_own(const Progress& progress, double from, double to) {
+  Progress part = progress.part(from, to);
+  part.journal.reset();
+  return part;
+}
+
+bool fails_by(const Acceptance& acceptance, Figure figure) {
+  return std::any_of(acceptance.reasons.begin(), acceptance.reasons.end(),
+                     [&](const auto& reason) { return reason.figure == figure_name(figure); });
+}
+
+void note_chosen_shank(const Tool& tool, const ObstacleRequest& chosen, std::vector<std::string>& notes) {
+  if (chosen.shank_length_mm)
+    notes.push_back(
+        fmt::format("the shank was chosen: diameter {:.4g} mm, {:g} mm above the flank, where it is out of the part; "
+                    "`shank_length_mm` gives another one, `shank` none leaves it out",
+                    tool.shank.empty() ? 0.0 : 2.0 * tool.shank.back().y(), *chosen.shank_length_mm));
+}
 
 }  // namespace
 
+void take_shank(const Path& path, const Box3& part, ObstacleRequest& obstacles, Tool& tool) {
+  choose_shank(tool, path, part, obstacles);
+  obstacles.shank = "given";
+  equip_tool(obstacles, tool);
+}
+
 template <class Job>
 Result with_auto_shank(const Job& job, const Progress& progress,
-                       const std::function<Result(const Job&, const Progress&)>& run) {
-  // Each plan is a run of its own, with steps of its own.
-  const auto part_of = [&](double from, double to) {
-    Progress part = progress.part(from, to);
-    part.journal.reset();
-    return part;
-  };
-  Job plain = job;
-  plain.obstacles.shank = "none";
-  plain.obstacles.shank_radius_mm.reset();
-  Result found = run(plain, part_of(0.0, 0.4));
-  std::vector<std::string> none;
-  const Box3 box = read_setup(machined(job), job.obstacles, found.verify.tolerance_mm, none).part.box;
-  Job with = job;
-  with.obstacles.shank = "given";
-  for (int k = 0; k < kMostTimes && found.complete && !found.path.strips.empty(); ++k) {
-    const std::optional<double> before = with.obstacles.shank_length_mm;
-    choose_shank(found.tool, found.path, box, with.obstacles);
-    if (before && *with.obstacles.shank_length_mm <= *before) break;
-    found = run(with, part_of(0.4 + 0.2 * k, 0.6 + 0.2 * k));
+                       const std::function<Result(const Job&, const Progress&)>& plan) {
+  Result found = plan(job, run_of_its_own(progress, 0.0, 0.5));
+  const Acceptance first = found.acceptance();
+  if (found.complete && fails_by(first, Figure::kClearance)) {
+    Job with = job;
+    with.obstacles = std::get<Job>(found.job).obstacles;
+    Result again = plan(with, run_of_its_own(progress, 0.5, 1.0));
+    if (again.acceptance().reasons.size() < first.reasons.size()) found = std::move(again);
   }
-  if (with.obstacles.shank_length_mm)
-    found.notes.push_back(fmt::format(
-        "the shank was chosen: diameter {:.4g} mm, {:g} mm above the flank, where it is out of the part; "
-        "`shank_length_mm` gives another one, `shank` none leaves it out",
-        found.tool.shank.empty() ? 0.0 : 2.0 * found.tool.shank.back().y(), *with.obstacles.shank_length_mm));
+  note_chosen_shank(found.tool, std::get<Job>(found.job).obstacles, found.notes);
   return found;
 }
 

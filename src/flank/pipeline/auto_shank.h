@@ -2,6 +2,8 @@
 #pragma once
 
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "flank/job/check_fields.h"
 #include "flank/run.h"
@@ -17,10 +19,14 @@ template <class Job>
   return job;
 }
 
-/// Plans without a shank, then with one that reaches out of the box of the part along the whole path found, and again where the path that
-/// takes it needs a longer one. The job of the result has the shank's figures; a note says them. `run` plans one job.
+/// A shank for a path that was planned without one, into the request: as thick as the flank ends, or the standard diameter just below it, and
+/// out of the part along all of the path. Equips the tool with it.
+void take_shank(const Path& path, const Box3& part, ObstacleRequest& obstacles, Tool& tool);
+
+/// Plans with a shank that is chosen for what was found (`plan` does so for a job whose shank is "auto"). Where it comes too near all the
+/// same, plans again with it in the way from the beginning; the better of the two. A note says the shank's figures.
 template <class Job>
 [[nodiscard]] Result with_auto_shank(const Job& job, const Progress& progress,
-                                     const std::function<Result(const Job&, const Progress&)>& run);
+                                     const std::function<Result(const Job&, const Progress&)>& plan);
 
 }  // namespace flank::internal

@@ -117,8 +117,8 @@ void note_own_reach(const TrochoidJob& job, const std::function<double()>& reach
   const double own_reach = reach();
   if (own_reach >= report.reachable_share || own_reach <= 0.0) return;
   result.notes.push_back(
-      fmt::format("the tool, with radii from {:.4g} to {:.4g} mm, reaches {:.1f} % of the sides between the other "
-                  "faces and finishes {:.1f} % of that; the accessible area is that of its smallest radius, {:.1f} %",
+      fmt::format("this tool has radii from {:.4g} to {:.4g} mm: its flank reaches {:.1f} % of the sides between the "
+                  "other faces and finishes {:.1f} % of that; a ball of its smallest radius reaches {:.1f} %",
                   result.tool.radial.smallest(), result.tool.radial.largest(), 100.0 * own_reach,
                   100.0 * std::min(1.0, report.coverage / own_reach), 100.0 * report.reachable_share));
 }
@@ -132,7 +132,7 @@ void note_nearest(Result& result) {
       deep ? report.coverage_reachable : report.coverage_reachable_bound.value_or(report.coverage_reachable);
   const bool covers_less = std::any_of(acceptance.reasons.begin(), acceptance.reasons.end(),
                                        [](const Shortfall& reason) { return reason.figure.starts_with("coverage"); });
-  std::string text = "closest to the request, this result meets";
+  std::string text = "this result would meet the request with";
   if (covers_less) text += fmt::format(" --coverage {:.2f}", std::floor(100.0 * proved) / 100.0);
   if (deep) text += fmt::format(" --tolerance {:.4g}", rounded_up(deepest_of(report)));
   result.notes.push_back(text);

@@ -98,14 +98,14 @@ void ask_for_reach(const CoverJob& job, const Setup& setup, const std::vector<Co
   std::get<CoverJob>(result.job).judge.reach_radius_mm = ball;
 }
 
-}  // namespace
-
-Result run_cover(const CoverJob& request, const Progress& asked) {
-  if (request.obstacles.shank == "auto") return with_auto_shank<CoverJob>(checked_for_auto(request), asked, run_cover);
+/// The job as it is; a shank that is to be chosen is that of the path found.
+Result plan_cover(const CoverJob& request, const Progress& asked) {
   const Progress progress = with_journal(asked);
   check_fields(request);
   (void)options_of(request);
   CoverJob job = request;
+  // The same as not asked for, to the byte.
+  if (job.part.allowance_mm == 0.0) job.part.allowance_mm.reset();
   Result result;
   result.inputs = input_stamps(job);
   const std::optional<ToolChoice> choice = tool_choice(job);
@@ -132,12 +132,21 @@ Result run_cover(const CoverJob& request, const Progress& asked) {
   if (choice) ask_for_reach(job, setup, all, result);
   std::vector<StripSurface> surfaces = collect(job, all, result);
   watch.lap("sample");
+  if (job.obstacles.shank == "auto" && !result.path.strips.empty())
+    take_shank(result.path, setup.part.box, std::get<CoverJob>(result.job).obstacles, result.tool);
   result.complete = !progress.stop();
   progress.step("verify", 0.9);
   const ClearanceScene scene = make_clearance_scene(setup, job.obstacles, has_body(result.tool), result.notes);
   judge_result(setup, scene, std::move(surfaces), result, watch);
   if (!result.complete) result.journal = progress.journal;
   return result;
+}
+
+}  // namespace
+
+Result run_cover(const CoverJob& request, const Progress& asked) {
+  return request.obstacles.shank == "auto" ? with_auto_shank<CoverJob>(checked_for_auto(request), asked, plan_cover)
+                                           : plan_cover(request, asked);
 }
 
 }  // namespace flank

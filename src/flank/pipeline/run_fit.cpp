@@ -1,5 +1,4 @@
 #include "flank/pipeline/run_fit.h"
-#include "flank/pipeline/auto_shank.h"
 
 #include <fmt/format.h>
 
@@ -9,12 +8,13 @@
 #include "flank/base/stopping.h"
 #include "flank/base/tolerance_budget.h"
 #include "flank/error.h"
-#include "flank/fit/lengthen.h"
 #include "flank/fit/tried.h"
 #include "flank/geom/tessellate.h"
 #include "flank/job/check_fields.h"
 #include "flank/obstacle/line_of_sight.h"
+#include "flank/pipeline/auto_shank.h"
 #include "flank/pipeline/finish.h"
+#include "flank/pipeline/fit_shank.h"
 #include "flank/pipeline/folder/judge_job.h"
 #include "flank/pipeline/repair_judged_cuts.h"
 #include "flank/pipeline/run_journal.h"
@@ -33,7 +33,8 @@ void check_radius(const RadiusRequest& radius) {
 }
 
 bool has_body(const ToolSpec& spec, const ObstacleRequest& obstacles) {
-  return obstacles.shank_length_mm || obstacles.holder || (spec.tool && has_body(*spec.tool));
+  return obstacles.shank == "auto" || obstacles.shank_length_mm || obstacles.holder ||
+         (spec.tool && has_body(*spec.tool));
 }
 
 Tool found_tool(const ToolSpec& spec, const RadialFunction& found, const ObstacleRequest& obstacles) {
@@ -130,27 +131,6 @@ void check_axis_length(const FitJob& job, const Part& part) {
     throw UsageError(
         "axis_length_mm", fmt::format("{}", length),
         fmt::format("is too short for this part of {:.3g} mm; expected at least {:.3g} mm", size, shortest));
-}
-
-/// Lifts a shank or holder that comes too near, if the flank's length is open (lengthen.h).
-void lift_shank(const FitJob& job, const ClearanceScene& scene, FitSearch& search, std::vector<std::string>& notes) {
-  if (job.tool.axis_length_mm || (!job.obstacles.shank_length_mm && !job.obstacles.holder)) return;
-  const auto clear = [&](const FlankFitResult& tried) {
-    Tool tool;
-    tool.radial = tried.tool;
-    equip_tool(job.obstacles, tool);
-    Path path;
-    for (const RuledMotion& motion : search.motions_of(tried)) {
-      SamplingOptions options;
-      options.chord_tolerance_mm = kToleranceBudget.chord * *job.tolerance_mm;
-      path.strips.push_back({});
-      path.strips.back().poses = sample_motion(motion, options).poses;
-    }
-    return measure_clearance(scene, tool, path).kept();
-  };
-  const double more = lengthen_until_clear(search.fit, std::max(1.0, job.obstacles.clearance_mm.value_or(0.0)), clear);
-  if (more > 0.0)
-    notes.push_back(fmt::format("the flank was lengthened by {} mm to keep shank and holder clear", more));
 }
 
 /// The group that each motion machines.
@@ -278,13 +258,16 @@ decltype(FitDemand::is_free_line) free_line_in(const ClearanceScene& scene) {
 /// A search and its verdict. `read`: what is known before.
 Result search_and_judge(const Setup& setup, const ClearanceScene& scene, const ToolSpec& spec, Result read,
                         double spare_coverage, const Progress& progress) {
-  const FitJob job = std::get<FitJob>(read.job);
+  FitJob job = std::get<FitJob>(read.job);
   Result result = std::move(read);
   Stopwatch watch(result);
   // What follows the search takes a share of the progress each.
   const double judged_at = job.stiffness_curve ? 0.5 : 0.9;
   FitSearch search = search_fit(job, setup, spec, progress.part(0.0, judged_at), {spare_coverage, free_line_in(scene)});
   if (search.fit.motions.empty()) stop_here();  // nothing takes the place of an earlier result
+  if (job.obstacles.shank == "auto" && !search.fit.motions.empty())
+    choose_shank(setup, search, found_tool(spec, search.fit.tool, {}), job.obstacles);
+  std::get<FitJob>(result.job).obstacles = job.obstacles;
   if (spec.free && !stopping()) lift_shank(job, scene, search, result.notes);
   take_fit(search, result);
   result.complete = !progress.stop();
@@ -309,14 +292,14 @@ bool passes(const Result& result) {
   return accept(result.tool, result.verify, job.judge, result.complete).reasons.empty();
 }
 
-}  // namespace
-
-Result run_fit(const FitJob& request, const Progress& asked) {
-  if (request.obstacles.shank == "auto") return with_auto_shank<FitJob>(checked_for_auto(request), asked, run_fit);
+/// The job as it is; a shank that is to be chosen is that of the motions found.
+Result plan_fit(const FitJob& request, const Progress& asked) {
   const Progress progress = with_journal(asked);
   check_job(request);
   Result result;
   FitJob job = request;
+  // The same as not asked for, to the byte.
+  if (job.part.allowance_mm == 0.0) job.part.allowance_mm.reset();
   result.inputs = input_stamps(job);
   const ToolSpec spec = parse_tool_spec(job.tool.spec);
   result.notes.insert(result.notes.end(), spec.notes.begin(), spec.notes.end());
@@ -346,6 +329,13 @@ Result run_fit(const FitJob& request, const Progress& asked) {
   }
   if (!result.complete) result.journal = progress.journal;
   return result;
+}
+
+}  // namespace
+
+Result run_fit(const FitJob& request, const Progress& asked) {
+  return request.obstacles.shank == "auto" ? with_auto_shank<FitJob>(checked_for_auto(request), asked, plan_fit)
+                                           : plan_fit(request, asked);
 }
 
 }  // namespace flank

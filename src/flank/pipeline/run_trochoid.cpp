@@ -185,7 +185,7 @@ TrochoidSummary summary_of(const TrochoidJob& job, const SideFit& sides, const C
 
 /// Tool, path and figures of a plan.
 void take(const CavityPlan& plan, const TrochoidJob& job, const ToolSpec& spec, const CavityFaces& faces,
-          Result& result) {
+          const Box3& part, Result& result) {
   const FlankFitResult& fit = plan.sides.fit;
   // The verdict, now and later, is about what the cavity allows, and so was the search.
   if (spec.free)
@@ -196,24 +196,26 @@ void take(const CavityPlan& plan, const TrochoidJob& job, const ToolSpec& spec, 
   const Legitimacy legitimacy = check_legitimacy(result.tool.radial);
   if (!legitimacy.legitimate) result.notes.push_back("the tool's profile is not valid: " + legitimacy.reason);
   result.path = plan.program.path;
+  if (job.obstacles.shank == "auto" && !result.path.strips.empty())
+    take_shank(result.path, part, std::get<TrochoidJob>(result.job).obstacles, result.tool);
   result.chord_bound_mm = plan.program.chord_bound_mm;
   result.plan = summary_of(job, plan.sides, plan.program, faces.width.narrowest_mm);
   if (plan.tools > 1)
-    result.notes.push_back(fmt::format("{} largest radii tried, from thick to thin: this tool was found with {:.4g} mm",
-                                       plan.tools, plan.largest_radius_mm));
+    result.notes.push_back(
+        fmt::format("tools of {} largest radii were tried, the thickest first; this one has {:.4g} mm", plan.tools,
+                    plan.largest_radius_mm));
   note_what_is_open(job, plan.program, result.notes);
   if (plan.program.layers.empty() && legitimacy.legitimate) note_no_cycles(job, fit.after, result.notes);
 }
 
-}  // namespace
-
-Result run_trochoid(const TrochoidJob& request, const Progress& asked) {
-  if (request.obstacles.shank == "auto")
-    return with_auto_shank<TrochoidJob>(checked_for_auto(request), asked, run_trochoid);
+/// The job as it is; a shank that is to be chosen is that of the path found.
+Result plan_trochoid(const TrochoidJob& request, const Progress& asked) {
   const Progress progress = with_journal(asked);
   check_job(request);
   Result result;
   TrochoidJob job = request;
+  // The same as not asked for, to the byte.
+  if (job.part.allowance_mm == 0.0) job.part.allowance_mm.reset();
   result.inputs = input_stamps(job);
   const ToolSpec spec = parse_tool_spec(job.tool.spec);
   result.notes.insert(result.notes.end(), spec.notes.begin(), spec.notes.end());
@@ -234,7 +236,8 @@ Result run_trochoid(const TrochoidJob& request, const Progress& asked) {
   watch.lap("read");
 
   PlanJudge judge(
-      setup, scene, job, [&](const CavityPlan& plan, Result& out) { take(plan, job, spec, faces, out); }, watch);
+      setup, scene, job,
+      [&](const CavityPlan& plan, Result& out) { take(plan, job, spec, faces, setup.part.box, out); }, watch);
   const CavityPlan plan = search_cavity(
       job, faces, make_tool_model(spec, job.tool.axis_length_mm), options,
       [&](const CavityPlan& tried) { return judge.find(tried); }, progress);
@@ -243,7 +246,7 @@ Result run_trochoid(const TrochoidJob& request, const Progress& asked) {
     throw InputError(
         "left", fmt::format("no tool of radius up to {:.4g} mm fits into the cavity, {:.3f} mm wide at its narrowest",
                             options.fit.bounds.largest, faces.width.narrowest_mm));
-  take(plan, job, spec, faces, result);
+  take(plan, job, spec, faces, setup.part.box, result);
   watch.lap("cycles");
   result.complete = !progress.stop();
 
@@ -257,6 +260,14 @@ Result run_trochoid(const TrochoidJob& request, const Progress& asked) {
   note_nearest(result);
   if (!result.complete) result.journal = progress.journal;
   return result;
+}
+
+}  // namespace
+
+Result run_trochoid(const TrochoidJob& request, const Progress& asked) {
+  return request.obstacles.shank == "auto"
+             ? with_auto_shank<TrochoidJob>(checked_for_auto(request), asked, plan_trochoid)
+             : plan_trochoid(request, asked);
 }
 
 }  // namespace flank

@@ -29,7 +29,7 @@ const char* reason(PropagationEnd end) {
     case PropagationEnd::kBorder:
       return "the border";
     case PropagationEnd::kMovability:
-      return "the movability limit";
+      return "a place where the line no longer fits the face";
     case PropagationEnd::kStep:
       return "a place where the surface gives no direction";
     case PropagationEnd::kTravel:
@@ -126,7 +126,7 @@ LineStart start_from_line(const Target& target, const Pose& start, double axis_l
   report.status = status_of(backward, forward);
   report.message = message_of(report);
   if (!search.after.valid())
-    report.message = "all footpoints of the line lie on the border of the target: start it over the face";
+    report.message = "the nearest points of the face all lie on its border; place the line over the face";
   if (report.status != LineStartStatus::kNoMotion)
     out.motion = join(backward, forward, axis_length, options.control_points);
   return out;

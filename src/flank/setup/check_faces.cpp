@@ -27,7 +27,7 @@ std::vector<int> named_faces(const Part& part, const std::vector<int>& targets, 
       if (!members.empty() &&
           std::all_of(members.begin(), members.end(), [&](int face) { return holds(targets, face); }))
         throw UsageError(field, list,
-                         fmt::format("{} is machined; expected other faces of F1 to F{}", item,
+                         fmt::format("{} is machined already; name other faces, from F1 to F{}", item,
                                      parse_face_name(part.face_id(part.face_count() - 1)).number));
     }
   } catch (const InputError& e) {

@@ -76,6 +76,7 @@ ClearanceScene make_clearance_scene(const Setup& setup, const ObstacleRequest& r
   ClearanceScene scene;
   scene.options.tolerance_mm = setup.tolerance_mm;
   scene.options.required_mm = request.clearance_mm.value_or(-1.0);
+  scene.options.allowance_mm = setup.allowance_mm;
   scene.has_body = has_body;
   const double deviation =
       std::clamp(kToleranceBudget.shank.judge_triangles * setup.tolerance_mm, kFinestMm, kCoarsestMm);

@@ -12,6 +12,7 @@
 #include "flank/io/cad/triangulate.h"
 #include "flank/io/part_format.h"
 #include "flank/surface/facets.h"
+#include "flank/surface/offset_target.h"
 
 namespace flank::internal {
 namespace {
@@ -114,7 +115,7 @@ std::vector<int> whole_solids(const Part& part, const std::vector<int>& faces) {
 }
 
 /// All faces of a solid as one surface with an inside; null if none of them could be read.
-std::shared_ptr<const Target> solid_target(const Part& part, int solid) {
+std::unique_ptr<Target> solid_target(const Part& part, int solid) {
   std::vector<Face> faces;
   for (const Face& face : part.faces)
     if (face.solid == solid) faces.push_back(face);
@@ -162,13 +163,19 @@ std::vector<int> near_faces(const Part& part, const std::vector<int>& faces, con
   return near;
 }
 
+/// The solid with what is left on it.
+std::shared_ptr<const Target> with_allowance(std::unique_ptr<Target> solid, double allowance_mm) {
+  if (solid == nullptr || !(allowance_mm > 0.0)) return solid;
+  return offset_target(std::move(solid), allowance_mm);
+}
+
 /// Solids that the target touches, other than its own, whole; of each face of the part whether it is one's.
 std::vector<char> add_solids(const Part& part, const Target& target, const ObstacleChoice& choice,
                              Obstacles& obstacles) {
   constexpr double kTouchMm = 0.5;
   std::vector<char> in_solid(static_cast<std::size_t>(part.face_count()), 0);
   for (const int solid : part.is_mesh() ? std::vector<int>{} : whole_solids(part, choice.others)) {
-    std::shared_ptr<const Target> whole = solid_target(part, solid);
+    std::shared_ptr<const Target> whole = with_allowance(solid_target(part, solid), choice.allowance_mm);
     if (!whole || !touches(target, *whole, kTouchMm)) continue;
     obstacles.solids.push_back(std::move(whole));
     for (std::size_t k = 0; k < in_solid.size(); ++k)
@@ -188,6 +195,7 @@ void add_meshes(const Part& part, const Target& target, const ObstacleChoice& ch
   std::vector<ObstacleMesh> meshes = meshes_of(part, near, detail.deviation_mm);
   for (std::size_t k = 0; k < near.size(); ++k) {
     meshes[k].flank_may_touch = in_solid[static_cast<std::size_t>(near[k])] != 0;
+    meshes[k].slack_mm += choice.allowance_mm;
     if (choice.clearance_mm) meshes[k].above_clearance_mm = planned_clearance(choice);
     obstacles.meshes.push_back(std::move(meshes[k]));
   }
@@ -215,7 +223,7 @@ void add_fixtures(const Target& target, const ObstacleChoice& choice, const Obst
 /// The target's own faces for shank and holder, finely: a shank as thick as the flank touches what the flank touches.
 void add_own(const Part& part, const ObstacleChoice& choice, const ObstacleDetail& detail, Obstacles& obstacles) {
   for (ObstacleMesh& mesh : meshes_of(part, choice.own, *detail.own_deviation_mm)) {
-    mesh.slack_mm += detail.own_spare_mm;
+    mesh.slack_mm += detail.own_spare_mm + choice.allowance_mm;
     mesh.flank_may_touch = true;
     obstacles.meshes.push_back(std::move(mesh));
   }
@@ -256,8 +264,8 @@ Obstacles make_obstacles(const Part& part, const Target& target, const ObstacleC
   if (detail.faces_within_mm) {
     // About 200 of them: only the nearness of boxes is measured by them.
     samples = target.samples(std::sqrt(target.area() / kSamples));
-    add_surfaces(part, choice.others, samples, *detail.faces_within_mm, 0.0, solids_with_unchecked_faces(part, choice),
-                 obstacles);
+    add_surfaces(part, choice.others, samples, *detail.faces_within_mm, choice.allowance_mm,
+                 solids_with_unchecked_faces(part, choice), obstacles);
   }
   const std::vector<char> in_solid = add_solids(part, target, choice, obstacles);
   if (detail.meshes_within_mm) add_meshes(part, target, choice, detail, in_solid, obstacles);

@@ -18,6 +18,7 @@ struct ObstacleChoice {
   std::span<const Part> fixtures;      ///< not owned
   std::optional<double> clearance_mm;  ///< --clearance: all of the tool from fixtures, shank and holder from `others`
   double tolerance_mm = 0.01;          ///< of the job: how deep the judge lets a tool go if no clearance is given
+  double allowance_mm = 0.0;           ///< left on every face of the part, not on fixtures
 };
 
 /// How much of it a planner looks at, and in which form. Forms that are not wanted cost nothing.

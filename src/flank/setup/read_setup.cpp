@@ -50,6 +50,7 @@ Setup read_setup(const PartRequest& part, const ObstacleRequest& obstacles, std:
                  std::vector<std::string>& notes) {
   Setup setup;
   setup.part = read_part(part.file, part.unit);
+  setup.allowance_mm = part.allowance_mm.value_or(0.0);
   split_faces(setup.part, part.skin.value_or(part.faces));
   if (!part.skin) split_two_sided(setup.part, part.faces);
   split_checks(setup.part, "check_faces", obstacles.check_faces);

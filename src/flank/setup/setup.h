@@ -19,6 +19,7 @@ struct Setup {
   std::vector<Part> fixtures;
   std::vector<int> unread = {};  ///< faces that are in the file and could not be read, but for those ignored by name
   std::vector<SheetSide> sides = {};  ///< of the targets that bound no material
+  double allowance_mm = 0.0;          ///< left on the faces of the part on purpose, >= 0
 };
 
 }  // namespace flank::internal

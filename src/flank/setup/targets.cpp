@@ -1,11 +1,29 @@
 #include "flank/setup/targets.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <utility>
 
 #include "flank/base/parallel.h"
+#include "flank/error.h"
 #include "flank/setup/joints.h"
+#include "flank/surface/offset_target.h"
 
 namespace flank::internal {
+namespace {
+
+/// What is wanted of the group where material is left on it.
+void leave(double allowance_mm, TargetGroup& group) {
+  const double bend = sharpest_bend(*group.target);
+  if (allowance_mm * bend >= 1.0)
+    throw UsageError("allowance_mm", fmt::format("{}", allowance_mm),
+                     fmt::format("{} bends towards the tool with a radius of {:.4g} mm; expected less than that",
+                                 group.faces, 1.0 / bend));
+  group.target = offset_target(std::move(group.target), allowance_mm);
+}
+
+}  // namespace
 
 std::vector<TargetGroup> make_targets(const Setup& setup) {
   const Part& part = setup.part;
@@ -19,6 +37,7 @@ std::vector<TargetGroup> make_targets(const Setup& setup) {
       if (!part.is_mesh()) values.push_back(part.faces[f]);
     }
     group.target = part.is_mesh() ? make_target(extract_mesh(part, members)) : make_target(std::move(values));
+    if (setup.allowance_mm > 0.0) leave(setup.allowance_mm, group);
   }
   return targets;
 }

@@ -22,7 +22,8 @@ struct TargetGroup {
   std::unique_ptr<ObstacleField> obstacles;  ///< what the flank keeps clear of; null: nothing near, or none is avoided
 };
 
-/// Machined from the side that the faces' normals point to (setup/machined_side.h).
+/// Machined from the side that the faces' normals point to (setup/machined_side.h); moved to that side by the allowance. Throws
+/// UsageError for an allowance that leaves nothing of a face that bends towards the tool.
 [[nodiscard]] std::vector<TargetGroup> make_targets(const Setup& setup);
 
 /// Samples of the targets and of the check faces (coarser) for the judge, in the order of the part's faces.

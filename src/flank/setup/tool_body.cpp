@@ -101,8 +101,7 @@ void check_obstacles(const ObstacleRequest& request, const Tool* tool) {
   if (request.shank != "given" && request.shank_length_mm)
     throw UsageError("shank", request.shank, "contradicts `shank_length_mm`; give one of them");
   if (request.shank == "auto" && request.holder)
-    throw UsageError("holder",
-                     "sits on a shank whose length is known; expected `shank_length_mm` with it, not `shank` auto");
+    throw UsageError("holder", "needs a shank of known length; give `shank_length_mm` with it, not `shank` auto");
   if (request.shank_radius_mm && !request.shank_length_mm && request.shank != "auto")
     throw UsageError("shank_radius_mm", "needs `shank_length_mm`: how far the shank reaches above the flank");
   // Read for its errors alone, before minutes are spent on a plan.

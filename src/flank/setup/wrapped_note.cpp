@@ -20,8 +20,8 @@ std::string wrapped_note(const Part& part, const std::vector<int>& targets) {
     std::vector<std::string> pieces;
     for (const NamedPiece& piece : pieces_of_face(part, face)) pieces.push_back(piece.face.id);
     if (!pieces.empty())
-      notes.push_back(fmt::format("{} goes round an edge; its pieces one by one: --face {}", part.face_id(face),
-                                  fmt::join(pieces, ",")));
+      notes.push_back(fmt::format("{} goes round an edge; to machine its pieces one by one: --face {}",
+                                  part.face_id(face), fmt::join(pieces, ",")));
   }
   for (const auto& [number, pieces] : in_pieces)
     if (pieces.size() > 2)

@@ -16,8 +16,9 @@
 #include "flank/manifest/result_folder.h"
 #include "flank/path_file.h"
 #include "flank/pipeline/folder/folder_job.h"
-#include "flank/pipeline/folder/operation_words.h"
 #include "flank/pipeline/folder/plan_operation.h"
+#include "flank/pipeline/folder/wheel_plan.h"
+#include "flank/pipeline/program/operation_words.h"
 #include "flank/results/acceptance.h"
 #include "flank/results/verify_json.h"
 #include "flank/setup/read_setup.h"
@@ -42,22 +43,28 @@ const char* kind_of(const FitJob&) { return "flank milling"; }
 const char* kind_of(const CoverJob&) { return "flank milling, passes of a given tool"; }
 const char* kind_of(const TrochoidJob&) { return "trochoidal roughing and finishing"; }
 
-/// The folder's own verdict; the program's beside it, where it was posted for this machine.
-Acceptance verdict_of(const std::string& folder, const std::string& machine) {
+/// The verdict on the path of a folder.
+Acceptance verdict_of(const std::string& folder) {
   const auto file = [&](const char* name) { return (std::filesystem::path(folder) / name).string(); };
   Acceptance verdict;
   if (std::filesystem::exists(file("verify.json")))
     verdict = acceptance_from_json(read_file(file("verify.json")), file("verify.json"));
   else
     add_reason(verdict, Figure::kVerdict, "the path was not checked; run `flank verify`");
-  if (machine.empty()) return verdict;
+  return verdict;
+}
+
+/// The program's verdict beside it, where it was posted for this machine.
+void add_program_verdict(const std::string& folder, const std::string& machine, Acceptance& verdict) {
+  const auto file = [&](const char* name) { return (std::filesystem::path(folder) / name).string(); };
+  if (machine.empty()) return;
   const auto motion = std::filesystem::exists(file("motion.json"))
                           ? nlohmann::json::parse(read_file(file("motion.json")), nullptr, false)
                           : nlohmann::json();
   if (!motion.is_object() || motion.value("machine", "") != machine) {
     add_caution(verdict, Figure::kVerdict,
                 "no program for this machine was posted from the folder as it is; run `flank verify --nc`");
-    return verdict;
+    return;
   }
   const auto add = [&](const char* list, std::vector<Shortfall>& to) {
     if (!motion.contains(list) || !motion[list].is_array()) return;
@@ -68,10 +75,10 @@ Acceptance verdict_of(const std::string& folder, const std::string& machine) {
   };
   add("reasons", verdict.reasons);
   add("cautions", verdict.cautions);
-  return verdict;
 }
 
-Read read_operation(const std::string& folder, const std::string& machine) {
+/// `judged`: of a wheel's folder, whose verdict is that of all its operations.
+Read read_operation(const std::string& folder, const std::string& machine, const std::optional<Acceptance>& judged) {
   const auto file = [&](const char* name) { return (std::filesystem::path(folder) / name).string(); };
   const ResultFolder result(folder, ResultFolder::Use::kRead);
   VerifyJob wanted;
@@ -92,7 +99,8 @@ Read read_operation(const std::string& folder, const std::string& machine) {
       found.job);
   read.told.tolerance_mm = read.setup.tolerance_mm;
   read.told.name = operation_name(folder, read.setup);
-  read.told.verdict = verdict_of(folder, machine);
+  read.told.verdict = judged ? *judged : verdict_of(folder);
+  add_program_verdict(folder, machine, read.told.verdict);
   return read;
 }
 
@@ -134,12 +142,11 @@ void add_tool(const Read& read, std::vector<std::string>& known, SetupSheet& she
   sheet.tools.push_back({read.told.tool_number, read.tool, read.told.tool_length_mm, stick_out(read.tool)});
 }
 
-/// What the program says of the operations: of each folder all of its copies.
+/// What the program says of the operations: of each folder all of its copies, as many as they are.
 void add_program(const SheetJob& job, const Machine& machine, std::vector<Read>& reads, SetupSheet& sheet) {
   const std::string text = read_file(*job.nc);
   const std::vector<NcProgram> programs = read_nc_operations(text, *job.nc, machine.dialect);
-  require_operations(*job.nc, programs, reads.size());
-  const std::size_t copies = programs.size() / reads.size();
+  const std::vector<std::size_t> folders = folders_of(*job.nc, programs, reads.size());
   const NcHeader& first = programs.front().header;
   sheet.program = std::filesystem::path(*job.nc).filename().string();
   sheet.program_sha256 = sha256(text);
@@ -151,10 +158,10 @@ void add_program(const SheetJob& job, const Machine& machine, std::vector<Read>&
   if (job.setup || !first.setup.empty()) sheet.place = parse_setup(job.setup ? *job.setup : first.setup);
   for (std::size_t k = 0; k < programs.size(); ++k) {
     const NcProgram& program = programs[k];
-    Read& read = reads[k / copies];
+    Read& read = reads[folders[k]];
     SheetOperation& told = read.told;
     if (program.header.operation && !program.header.operation->name.empty()) told.name = program.header.operation->name;
-    told.copies = static_cast<int>(copies);
+    told.copies = program.header.operation.value_or(NcOperation{}).copies;
     told.tool_number = program.header.tool.number;
     told.tool_length_mm = program.header.tool.length;
     told.spindle_rpm = program.header.spindle_rpm;
@@ -163,13 +170,16 @@ void add_program(const SheetJob& job, const Machine& machine, std::vector<Read>&
   }
 }
 
-void add_verdicts(SetupSheet& sheet) {
+void add_verdicts(const std::optional<Acceptance>& judged, SetupSheet& sheet) {
+  if (judged) sheet.verdict = *judged;
+  // What a wheel's operations have in common is told once.
+  const std::size_t reasons = judged ? judged->reasons.size() : 0, cautions = judged ? judged->cautions.size() : 0;
   for (const SheetOperation& one : sheet.operations) {
     const std::string before = sheet.operations.size() > 1 ? one.name + ": " : "";
-    for (const Shortfall& reason : one.verdict.reasons)
-      sheet.verdict.reasons.push_back({reason.figure, before + reason.text});
-    for (const Shortfall& caution : one.verdict.cautions)
-      sheet.verdict.cautions.push_back({caution.figure, before + caution.text});
+    for (std::size_t k = reasons; k < one.verdict.reasons.size(); ++k)
+      sheet.verdict.reasons.push_back({one.verdict.reasons[k].figure, before + one.verdict.reasons[k].text});
+    for (std::size_t k = cautions; k < one.verdict.cautions.size(); ++k)
+      sheet.verdict.cautions.push_back({one.verdict.cautions[k].figure, before + one.verdict.cautions[k].text});
   }
 }
 
@@ -181,6 +191,18 @@ void require_one_part(const std::vector<Read>& reads) {
                        "; expected folders of one part");
 }
 
+/// The folders that are given, or those of a wheel's operations, with the verdict on all of them.
+std::vector<std::string> operations_of(const SheetJob& job, std::optional<Acceptance>& judged) {
+  const std::optional<WheelPlan> wheel = job.folders.size() == 1 ? read_wheel_plan(job.folders.front()) : std::nullopt;
+  if (!wheel) return job.folders;
+  judged = verdict_of(job.folders.front());
+  std::vector<std::string> folders;
+  for (const WheelStep& step : wheel->steps)
+    if (step.done) folders.push_back(step.folder);
+  if (folders.empty()) throw InputError(job.folders.front() + ": plan.json: no operation has a result");
+  return folders;
+}
+
 }  // namespace
 
 SetupSheet make_setup_sheet(const SheetJob& job) {
@@ -188,8 +210,9 @@ SetupSheet make_setup_sheet(const SheetJob& job) {
   std::optional<Machine> machine;
   if (job.machine) machine = read_machine(*job.machine);
   std::vector<Read> reads;
-  for (const std::string& folder : job.folders)
-    reads.push_back(read_operation(folder, job.nc ? machine->name : std::string()));
+  std::optional<Acceptance> judged;
+  for (const std::string& folder : operations_of(job, judged))
+    reads.push_back(read_operation(folder, job.nc ? machine->name : std::string(), judged));
   require_one_part(reads);
   SetupSheet sheet;
   if (job.setup) sheet.place = parse_setup(*job.setup), sheet.placed = true;
@@ -209,7 +232,7 @@ SetupSheet make_setup_sheet(const SheetJob& job) {
   sheet.box = drawing.box();
   sheet.front = drawing.svg(DrawnFrom::kFront);
   sheet.above = drawing.svg(DrawnFrom::kAbove);
-  add_verdicts(sheet);
+  add_verdicts(judged, sheet);
   return sheet;
 }
 

@@ -76,7 +76,7 @@ std::string setup_html(const SetupSheet& sheet) {
       out += row("Zero point",
                  fmt::format("work offset {} ({}) holds {}", sheet.work_offset,
                              sheet.work_offset <= 6 ? fmt::format("G{}", 53 + sheet.work_offset) : "extended",
-                             sheet.origin.empty() ? "what the set-up says" : sheet.origin));
+                             sheet.origin.empty() ? "the zero point of the set-up" : sheet.origin));
     out += row("Zero point is", zero_text(sheet));
   } else {
     out += row("Set-up", "not known: no program was given");
@@ -129,7 +129,7 @@ std::string tool_html(const SheetTool& tool) {
   out += row("Holder", holder ? fmt::format("diameter {:.2f} mm at its face", 2.0 * t.holder.front().y())
                               : "not given, not checked");
   out += row("Length for the control", number(tool.length_mm, "mm, gauge line to controlled point"));
-  out += row("Stiffness", fmt::format("L:D {:.2f}, the tip gives way by {:.1f} um under {:g} N", bends.slenderness,
+  out += row("Stiffness", fmt::format("L:D {:.2f}, the tip deflects by {:.1f} um under {:g} N", bends.slenderness,
                                       bends.deflection_um, kStiffnessForce));
   return out + "</table>\n" + tool_to_svg(t) + "</div>\n";
 }

@@ -157,7 +157,7 @@ std::string FamilyChart::text() const {
   std::vector<std::string> parts;
   for (const FamilyCoordinate coordinate : coordinates_) {
     if (coordinate == FamilyCoordinate::kRadius)
-      parts.push_back(fmt::format("radius from a tenth of the axis to {:.3g} mm", radius_high_));
+      parts.push_back(fmt::format("radius from a tenth of the axis length to {:.3g} mm", radius_high_));
     if (coordinate == FamilyCoordinate::kCurvature)
       parts.push_back(fmt::format("arc from {:.3g} mm (concave) through straight to {:.3g} mm", 1.0 / curvature_low_,
                                   1.0 / curvature_high_));

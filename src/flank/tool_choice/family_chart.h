@@ -37,7 +37,7 @@ class FamilyChart {
   /// The tool at x in [0, 1]^n, its parameters rounded: radii to 0.01 mm, arcs to four digits, angles to 0.01 degrees.
   /// Nothing if that is no legitimate tool (MATH section 1). Rounded, so that what is printed is what was tried.
   [[nodiscard]] std::optional<RadialFunction> at(const std::vector<double>& x) const;
-  /// "radius from a tenth of the axis to 13.2 mm, arc from -31.2 mm (concave) over straight to 45.6 mm".
+  /// "radius from a tenth of the axis length to 13.2 mm, arc from -31.2 mm (concave) over straight to 45.6 mm".
   [[nodiscard]] std::string text() const;
 
  private:

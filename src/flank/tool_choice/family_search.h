@@ -32,7 +32,7 @@ struct FamilySearchOptions {
 struct FamilySearchResult {
   /// Best first, by quick covers; named as --tool takes them. Where none covers anything, the one that came nearest.
   std::vector<Tool> tools;
-  std::string searched;                     ///< "axis 20 mm (given); radius from a tenth of the axis to 13 mm, ..."
+  std::string searched;  ///< "axis 20 mm (given); radius from a tenth of the axis length to 13 mm, ..."
   int grid = 0, screened = 0, covered = 0;  ///< tools measured: by meridian, among obstacles, by a quick cover
 };
 

@@ -108,8 +108,8 @@ std::string reason_of(const ToolScreen& screen, const ScreenPlaces& places, cons
         spheres.thinnest);
   if (screen.accepted == 0.0)
     return fmt::format(
-        "its profile curvature does not match the face: along its {:.3g} mm the error is at least {:.3g} mm; up to "
-        "{:.3g} mm would be worth a try",
+        "its profile curvature does not match the face: along its {:.3g} mm the error is at least {:.3g} mm; tools "
+        "with an error of up to {:.3g} mm are tried",
         radial.axis_length(), screen.least_error_mm, options.slack * options.tolerance_mm);
   if (screen.open == 0.0)
     return fmt::format(

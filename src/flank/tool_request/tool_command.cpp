@@ -105,8 +105,8 @@ std::string tool_summary_json(const Tool& tool, const std::vector<std::string>& 
     least = std::min(least, r), most = std::max(most, r);
   }
   return fmt::format(
-      "{{\"family\": \"{}\", \"axis_length_mm\": {}, \"radius_min_mm\": {}, \"radius_max_mm\": {}, \"margin\": {}, "
-      "\"files\": [{}]}}\n",
+      "{{\"schema\": \"openflank/tool-summary/1\", \"family\": \"{}\", \"axis_length_mm\": {}, \"radius_min_mm\": {}, "
+      "\"radius_max_mm\": {}, \"margin\": {}, \"files\": [{}]}}\n",
       family_name(tool.radial.family()), exact_number(tool.radial.axis_length()), exact_number(least),
       exact_number(most), exact_number(verdict.margin), fmt::join(names, ", "));
 }

@@ -138,12 +138,12 @@ Tool make_tool(ToolFamily family, const std::map<std::string, double>& parameter
     values[static_cast<Eigen::Index>(k)] = found != parameters.end() ? found->second : 0.5 * axis_length;
   }
   if (!missing.empty())
-    throw UsageError(fmt::format("{}: {} not given; it needs {}", family_name(family), fmt::join(missing, ", "),
-                                 accepted_parameters(family)));
+    throw UsageError(fmt::format("{}: {} not given; its parameters are {}", family_name(family),
+                                 fmt::join(missing, ", "), accepted_parameters(family)));
   for (const auto& [name, value] : parameters)
     if (std::find(names.begin(), names.end(), name) == names.end())
-      throw UsageError(
-          fmt::format("{}: unknown parameter {}; it needs {}", family_name(family), name, accepted_parameters(family)));
+      throw UsageError(fmt::format("{}: unknown parameter {}; its parameters are {}", family_name(family), name,
+                                   accepted_parameters(family)));
   Tool tool;
   tool.radial = RadialFunction(family, axis_length, values);
   // Parameters may each be fine and still make no tool, e.g. a barrel whose arc is smaller than its radius (MATH.md,

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "flank/geom/trim.h"
+#include "flank/tool/grown.h"
 #include "flank/tour/legs.h"
 #include "flank/tour/levels.h"
 #include "flank/tour/walls_in_row.h"
@@ -231,7 +232,8 @@ std::vector<Run> runs_at(const WallsInRow& row, const StraightFlank& flank, doub
 
 /// What a shop must know of the corners.
 void note_corners(const WallsInRow& row, const std::vector<Face>& faces, const StraightFlank& flank, double foot_s,
-                  const std::vector<std::size_t>& without_room, std::vector<std::string>& notes) {
+                  const TourScene& scene, const std::vector<std::size_t>& without_room,
+                  std::vector<std::string>& notes) {
   const auto name = [&](std::size_t i) { return faces[row.chain.order[i]].id; };
   for (std::size_t i = 0; i < row.walls.size(); ++i) {
     if (row.too_tight[i] != 0)
@@ -241,7 +243,7 @@ void note_corners(const WallsInRow& row, const std::vector<Face>& faces, const S
                       name(i)));
     const bool round = row.too_tight[i] != 0 || row.too_tight[row.next(i)] != 0;
     if (row.corners[i] != Corner::kLeft || round) continue;
-    const double radius = std::max(flank.at(std::max(0.0, foot_s)), flank.radius);
+    const double radius = std::max(flank.at(std::max(0.0, foot_s)), flank.radius) - scene.allowance_mm;
     notes.push_back(fmt::format(
         "the inner corner of {:.0f} degrees between {} and {} is left: no tool of radius {:.4g} mm reaches it, and "
         "{:.3g} mm of material stay in it; each wall ends where the tool touches the other",
@@ -276,10 +278,10 @@ void note_tour(const WallsInRow& row, const std::vector<Face>& faces, Tour& tour
   for (const std::size_t f : row.chain.order) names += (names.empty() ? "" : ", ") + faces[f].id;
   tour.notes.insert(
       tour.notes.begin(),
-      fmt::format("a tour along {} adjacent walls ({}), {}{}; climb milling", row.walls.size(), names,
-                  tour.closed ? "all round in one motion"
-                              : fmt::format("{} motion{}", tour.motions.size(), tour.motions.size() == 1 ? "" : "s"),
-                  tour.levels > 1 ? fmt::format(", in {} levels", tour.levels) : ""));
+      fmt::format("{} adjacent walls ({}) are machined in a row, {}{}; climb milling", row.walls.size(), names,
+                  tour.closed ? "all round, in one motion"
+                              : fmt::format("in {} motion{}", tour.motions.size(), tour.motions.size() == 1 ? "" : "s"),
+                  tour.levels > 1 ? fmt::format(", at {} levels", tour.levels) : ""));
 }
 
 }  // namespace
@@ -290,11 +292,13 @@ std::optional<Tour> make_tour(const TourRequest& request) {
   const std::optional<Chain> chain = find_chain(faces);
   if (!chain) return {};
   constexpr double kAnyLength = 1.0;
-  const std::optional<StraightFlank> flank = straight_flank(request.tool(request.axis_length_mm.value_or(kAnyLength)));
+  // Thicker by what is left: the tool itself keeps so far off.
+  const std::optional<StraightFlank> flank =
+      straight_flank(grown(request.tool(request.axis_length_mm.value_or(kAnyLength)), request.allowance_mm));
   if (!flank) return {};
   std::optional<WallsInRow> row = oriented_row(faces, *chain, *flank, request);
   if (!row) return {};
-  const TourScene scene{request.obstacles, request.tolerance_mm, request.eased};
+  const TourScene scene{request.obstacles, request.tolerance_mm, request.eased, request.allowance_mm};
   look_at_corners(*flank, 0.0, request.tolerance_mm, *row);
   const std::optional<double> lowest = lowest_foot(*row, *flank, scene);
   if (!lowest) return {};
@@ -310,7 +314,7 @@ std::optional<Tour> make_tour(const TourRequest& request) {
   tour.closed = runs.front().closed;
   tour.motions = motions_of(runs, heights.foot_s, heights.axis_length_mm, kOff * request.tolerance_mm);
   for (const Wall& wall : row->walls) tour.twist_rad = std::max(tour.twist_rad, wall.twist());
-  note_corners(*row, faces, *flank, *lowest, without_room, tour.notes);
+  note_corners(*row, faces, *flank, *lowest, scene, without_room, tour.notes);
   note_tour(*row, faces, tour);
   return tour;
 }

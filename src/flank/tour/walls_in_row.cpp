@@ -79,7 +79,7 @@ bool is_clear_of_others(const Pose& pose, const StraightFlank& flank, double len
   constexpr int kPlaces = 16;
   if (scene.obstacles == nullptr) return true;
   for (int k = 0; k <= kPlaces; ++k) {
-    const double s = length * k / kPlaces, r = flank.at(s);
+    const double s = length * k / kPlaces, r = flank.at(s) - scene.allowance_mm;
     // Beside the border of the wall its neighbours are as near as the wall.
     const double spare = k == 0 ? tip_off_mm : -kRounding * scene.tolerance_mm;
     if (scene.obstacles->at(pose.at(s), r + 1.0).distance_mm < r + spare) return false;

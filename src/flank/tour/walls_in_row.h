@@ -35,7 +35,8 @@ struct WallsInRow {
 struct TourScene {
   const ObstacleField* obstacles = nullptr;
   double tolerance_mm = 0.01;
-  bool eased = false;  ///< as TourRequest has it
+  bool eased = false;         ///< as TourRequest has it
+  double allowance_mm = 0.0;  ///< by which the flank is thicker than the tool: the obstacles know of it
 };
 
 /// `faces` must outlive it. None where a face is no wall.

@@ -27,7 +27,7 @@ Material material_of(const TomlTable& row) {
   const std::vector<double> speed = row.numbers("speed_m_min", 2, {1.0, 5000.0}),
                             chip = row.numbers("chip_per_diameter", 2, {1e-5, 0.1});
   if (speed[1] < speed[0]) row.refuse("speed_m_min", "the upper speed is below the lower one");
-  if (chip[1] < chip[0]) row.refuse("chip_per_diameter", "the upper chip is below the lower one");
+  if (chip[1] < chip[0]) row.refuse("chip_per_diameter", "the upper chip load is below the lower one");
   m.speed_low = speed[0], m.speed_high = speed[1];
   m.chip_low = chip[0], m.chip_high = chip[1];
   m.kc1 = row.number("kc1_n_mm2", {50.0, 10000.0});
@@ -46,7 +46,7 @@ std::vector<Material> materials_from_toml(std::string_view text, const std::stri
   for (const TomlTable& row : document.tables("material")) {
     materials.push_back(material_of(row));
     const auto same = [&](const Material& m) { return m.name == materials.back().name; };
-    if (std::any_of(materials.begin(), materials.end() - 1, same)) row.refuse("name", "is there twice");
+    if (std::any_of(materials.begin(), materials.end() - 1, same)) row.refuse("name", "occurs twice");
   }
   document.require_all_known();
   if (materials.empty()) throw InputError(file + ": has no [[material]]");

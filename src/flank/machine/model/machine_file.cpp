@@ -235,13 +235,13 @@ void read_meaning(const TomlTable& table, Machine& machine) {
   const NcLanguageRow& language = row_of(machine.dialect.language);
   const std::string title(language.title);
   if (machine.positions == NcPositions::kJoint && machine.join != NcJoin::kAxes)
-    table.refuse("join", "joint coordinates are joined by \"axes\"");
+    table.refuse("join", "joint coordinates must be joined by \"axes\"");
   if (!language.great_circle && machine.join != NcJoin::kAxes)
-    table.refuse("join", title + " joins blocks by \"axes\"");
+    table.refuse("join", title + " can join blocks by \"axes\" only");
   if (!language.vectors && machine.positions == NcPositions::kTipVector)
     table.refuse("positions", title + " has no vectors; expected \"tip-rotary\", \"joint\"");
   if (!language.inverse_time && machine.feed_mode == NcFeedMode::kInverseTime)
-    table.refuse("feed", title + "'s feeds are \"per-minute\"");
+    table.refuse("feed", title + "'s feeds must be \"per-minute\"");
 }
 
 std::string read_text(const std::string& file) {

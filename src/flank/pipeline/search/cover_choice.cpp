@@ -84,7 +84,7 @@ RankingReport family_report(const CoverJob& job, const ToolChoice& choice, const
   for (const Tool& tool : found.tools)
     report.names.push_back(fmt::format("{}, axis {:.4g} mm", tool.name, tool.radial.axis_length()));
   report.source = fmt::format(
-      "{}, searched over {}; {} tools compared by profile, {} of them placed on the face, {} by their passes",
+      "{}, searched over {}; {} tools compared by profile, {} of them placed on the face, {} compared by their passes",
       job.tool.spec, found.searched, found.grid, found.screened, found.covered);
   report.tools = std::move(found.tools);
   return report;
@@ -159,7 +159,7 @@ void note_none(const RankingReport& report, Result& result) {
   const RankedTool& nearest = report.ranked.front();
   if (nearest.strips > 0) return;
   result.notes.push_back(fmt::format(
-      "no tool of {} can machine this face; written is the closest, {}: {}", report.names.size(),
+      "none of {} tools can machine this face; the closest one is written, {}: {}", report.names.size(),
       report.names[nearest.tool], nearest.reason.empty() ? "interrupted before this tool was tried" : nearest.reason));
 }
 

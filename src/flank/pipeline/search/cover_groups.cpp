@@ -38,6 +38,7 @@ Obstacles obstacles_of(const CoverJob& job, const Setup& setup, const TargetGrou
   choice.fixtures = setup.fixtures;
   choice.clearance_mm = job.obstacles.clearance_mm;
   choice.tolerance_mm = tolerance_mm;
+  choice.allowance_mm = setup.allowance_mm;
   ObstacleDetail detail;
   detail.meshes_within_mm = extent.reach_mm;
   detail.deviation_mm = std::clamp(kToleranceBudget.others.triangles * tolerance_mm, 1e-3, 0.05);

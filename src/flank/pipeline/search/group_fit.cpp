@@ -43,7 +43,7 @@ FlankFitResult closely_measured(FlankFitResult best, const Target& target, const
   std::vector<FitTask> tasks;
   for (const RuledMotion& motion : best.motions) tasks.push_back({&target, motion, options.obstacles});
   return journaled(
-      progress, "close look", [&] { return with_close_look(tasks, best, tool, options); }, best);
+      progress, "close check", [&] { return with_close_look(tasks, best, tool, options); }, best);
 }
 
 /// One row of the schedule of a search that may take as many strips as it needs.

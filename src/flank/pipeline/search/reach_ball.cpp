@@ -17,6 +17,13 @@ double ball_for_corners(double tolerance_mm, const Target& target, double radius
   return ball_with_room(target, alone, radius);
 }
 
+/// The ball of this radius, or the one that fits into the tightest fillet, with what is left in it.
+double ball_in_fillets(const Setup& setup, double radius_mm) {
+  const std::optional<double> fillet = tightest_fillet(setup.part, setup.targets, radius_mm + setup.allowance_mm);
+  const double left = fillet.value_or(radius_mm + setup.allowance_mm) - setup.allowance_mm;
+  return left > 0.0 ? left : radius_mm;
+}
+
 }  // namespace
 
 void allow_thin(const FitJob& job, double ball_mm, RadiusBounds& bounds) {
@@ -45,12 +52,10 @@ double reach_of_part(const Setup& setup, const Target& target, std::optional<dou
                      const RadiusBounds& bounds) {
   const double length = axis_length_mm.value_or(std::sqrt(target.area()));
   const double stiff = std::clamp(0.5 * length / bounds.slenderest, bounds.smallest, bounds.largest);
-  const double ball = tightest_fillet(setup.part, setup.targets, stiff).value_or(stiff);
+  const double ball = ball_in_fillets(setup, stiff);
   return three_digits(std::max(bounds.smallest, ball_for_corners(setup.tolerance_mm, target, ball)));
 }
 
-double reach_in_gap(const Setup& setup, double gap_mm) {
-  return three_digits(tightest_fillet(setup.part, setup.targets, gap_mm).value_or(gap_mm));
-}
+double reach_in_gap(const Setup& setup, double gap_mm) { return three_digits(ball_in_fillets(setup, gap_mm)); }
 
 }  // namespace flank::internal

@@ -62,6 +62,7 @@ void add_group_obstacles(const Setup& setup, const std::optional<double>& cleara
     choice.fixtures = setup.fixtures;
     choice.clearance_mm = clearance_mm;
     choice.tolerance_mm = setup.tolerance_mm;
+    choice.allowance_mm = setup.allowance_mm;
     ObstacleDetail detail;
     detail.faces_within_mm = kReach * largest_radius;
     const Obstacles obstacles = make_obstacles(setup.part, *group.target, choice, detail);

@@ -200,8 +200,8 @@ FlankFitResult relax_stiffness_bounds(const Target& target, const ToolModel& too
   FlankFitResult result = stiffened(target, tool, lifted, options.bounds.slenderest, open, progress.part(0.6, 1.0));
   add_tried(result, within, options.bounds);
   result.notes.push_back(
-      fmt::format("L:D {:.1f} is the lowest found that meets the request: limited to {:.1f} the tool finishes {:.1f} % "
-                  "of the face, with it {:.1f} %",
+      fmt::format("L:D {:.1f} is the lowest found that meets the request: a tool limited to {:.1f} finishes {:.1f} % "
+                  "of the face, this one {:.1f} %",
                   slenderness_of(result.tool, options.bounds), options.bounds.slenderest,
                   100.0 * within.after.at_tolerance, 100.0 * result.after.at_tolerance));
   return result;

@@ -30,6 +30,7 @@ std::optional<Tour> tour_of(const Setup& setup, const TargetGroup& group, const 
   request.obstacles = group.obstacles.get();
   request.is_free_line = options.is_free_line;
   request.tolerance_mm = options.tolerance_mm;
+  request.allowance_mm = setup.allowance_mm;
   return make_tour(request);
 }
 

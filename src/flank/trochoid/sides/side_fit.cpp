@@ -278,7 +278,7 @@ SideFit search_radii(const CavitySide& left, const CavitySide& right, const Tool
   }
   if (best.draft.motions.empty()) {
     out.fit.status = FitStatus::kNoStart;
-    out.fit.message = "no axis that touches both sides is free";
+    out.fit.message = "every position of the axis that touches both sides collides";
     return out;
   }
   const FlankFitOptions fit = possible(options.fit, best.draft.tool.axis_length());

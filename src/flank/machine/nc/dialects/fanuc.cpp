@@ -110,7 +110,7 @@ class FanucReader {
       case 280:
       case 300:
         if (!block_.has_code('G', 910))
-          builder_.place().refuse(quoted(word.text) + " passes a point of the part; expected G91 G28");
+          builder_.place().refuse(quoted(word.text) + " goes by way of a point in part coordinates; expected G91 G28");
         builder_.to_reference();
         break;
       case 434:
@@ -187,7 +187,7 @@ class FanucReader {
     // Zero is zero in either unit.
     if (!word.point && word.value != 0.0)
       builder_.place().refuse(quoted(word.text) +
-                              " has no decimal point, and may be a thousandth of it on the machine");
+                              " has no decimal point; the control may read it as a thousandth of that value");
     return word.value;
   }
 

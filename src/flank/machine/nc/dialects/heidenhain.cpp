@@ -81,8 +81,8 @@ class HeidenhainReader {
     for (const std::string_view w : words_)
       if (w != "STOP" && w != "M0" && w != "M1" && w != "M8" && w != "M9" && !is_ignored(w))
         builder_.place().refuse(quoted(w) +
-                                " stands in a block that may be skipped (/); accepted there is what has no "
-                                "effect on the motion");
+                                " stands in a block that may be skipped (/); only words without effect on "
+                                "the motion may stand there");
     return true;
   }
 

@@ -145,7 +145,7 @@ class LinuxCncReader {
       case 280:
       case 300:
         if (!block_.has_code('G', 910))
-          builder_.place().refuse(quoted(word.text) + " passes a point of the part; expected G91 G28");
+          builder_.place().refuse(quoted(word.text) + " goes by way of a point in part coordinates; expected G91 G28");
         builder_.to_reference();
         break;
       case 430:

@@ -177,8 +177,8 @@ class SiemensReader {
                         is_ignored_here(word);
       if (!same)
         builder_.place().refuse(quoted(word.text) +
-                                " stands in a block that may be skipped (/); accepted there is what "
-                                "has no effect on the motion");
+                                " stands in a block that may be skipped (/); only words without "
+                                "effect on the motion may stand there");
     }
   }
 

@@ -24,7 +24,7 @@ void check_decimals(const NcDialect& dialect) {
 /// What a program of our own making always keeps is an InternalError; a feed may come from a user's wish.
 void check_move(const NcProgram& program, const NcMove& move) {
   if (move.strip < -1 || move.strip >= static_cast<std::int32_t>(program.strips.size()))
-    throw InternalError("a move of a program belongs to a strip that it does not have");
+    throw InternalError("a move belongs to a pass that the program does not have");
   if (!move.position.allFinite() || !move.orientation.allFinite() || !std::isfinite(move.feed))
     throw InternalError("a program has a number that is not finite");
   if (program.positions == NcPositions::kTipVector && std::abs(move.orientation.norm() - 1.0) > kUnitVectorError)
@@ -48,7 +48,7 @@ void check_program(const NcProgram& program) {
   if (program.moves.empty()) throw UsageError("program: has no moves");
   require_rotary_letters(program.rotary);
   if (program.header.tool.number < 0 || program.header.tool.number > kLargestNcValue || program.header.work_offset < 1)
-    throw UsageError("program: the tool's number is from 0 to 1000000, that of the work offset at least 1");
+    throw UsageError("program: the tool's number must be from 0 to 1000000, that of the work offset at least 1");
   if (program.positions == NcPositions::kJoint && program.join == NcJoin::kGreatCircle)
     throw UsageError("program: joint coordinates are joined linearly, not on a great circle");
   for (std::size_t i = 0; i < program.moves.size(); ++i) {
@@ -68,11 +68,11 @@ std::string write_nc(std::span<const NcProgram> operations, const NcDialect& dia
     check_program(p);
     if (p.positions != first.positions || p.join != first.join || p.feed_mode != first.feed_mode ||
         p.rotary != first.rotary || p.header.work_offset != first.header.work_offset)
-      throw InternalError("operations of one program that are stated in different ways");
+      throw InternalError("the operations of one program differ in positions, feed mode or work offset");
     const std::optional<NcOperation>& of = p.header.operation;
     if (operations.size() > 1 &&
         (!of || of->number != static_cast<int>(k) + 1 || of->count != static_cast<int>(operations.size())))
-      throw InternalError("operations of a program that are not counted in their order");
+      throw InternalError("the operations of a program are not numbered in their order");
   }
   return row_of(dialect.language).write(operations, dialect);
 }

@@ -97,8 +97,8 @@ void require_same_if_skipped(const GBlock& block, const NcDialect& dialect, cons
                       is_without_effect(dialect, word.letter, word.value);
     if (!same)
       place.refuse(quoted(word.text) +
-                   " stands in a block that may be skipped (/); accepted there is what has no effect "
-                   "on the motion");
+                   " stands in a block that may be skipped (/); only words without effect on the motion "
+                   "may stand there");
   }
 }
 
