@@ -38,4 +38,21 @@ double lengthen_until_clear(FlankFitResult& fit, double step_mm,
   return 0.0;
 }
 
+FitDraft run_on(const FitDraft& draft, double share) {
+  constexpr int kPosesPerPoint = 8;
+  FitDraft longer = draft;
+  for (RuledMotion& motion : longer.motions) {
+    const RuledMotion old = motion;
+    const int points = old.tip.count(), count = kPosesPerPoint * points;
+    std::vector<Pose> poses;
+    std::vector<double> times;
+    for (int i = 0; i <= count; ++i) {
+      times.push_back(static_cast<double>(i) / count);
+      poses.push_back(old.pose((1.0 + 2.0 * share) * times.back() - share));
+    }
+    motion = fit_motion(poses, times, old.axis_length, points);
+  }
+  return longer;
+}
+
 }  // namespace flank::internal

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "flank/fit.h"
+#include "flank/fit/stages.h"
 #include "flank/radial_function.h"
 
 namespace flank::internal {
@@ -17,5 +18,10 @@ namespace flank::internal {
 /// and where nothing helps: then the result is as it was.
 [[nodiscard]] double lengthen_until_clear(FlankFitResult& fit, double step_mm,
                                           const std::function<bool(const FlankFitResult&)>& clear);
+
+/// The draft with motions that go on at both ends as the polynomials that their rails are there, by `share` of their time: a border that an
+/// end has touched, which leaves what a pose is and no envelope, is touched before that then. As many control points as before: what is a
+/// little off is an envelope as well.
+[[nodiscard]] FitDraft run_on(const FitDraft& draft, double share);
 
 }  // namespace flank::internal

@@ -6,6 +6,7 @@
 
 #include "flank/base/stopping.h"
 #include "flank/base/tolerance_budget.h"
+#include "flank/fit/lengthen.h"
 #include "flank/fit/model/constrained.h"
 #include "flank/fit/swept_pass.h"
 #include "flank/motion/stagger.h"
@@ -100,6 +101,7 @@ Polished refine_exact_envelope(const Polished& polished, const std::vector<Surfa
   // A given tool was lifted out of all overcut: its mean error is that of the lift, and says less of what is possible.
   constexpr double kLifted = 1e-4;
   constexpr double kEnvelopeGains = 0.9;   // of the mean error, at most, after a pass: else it is no envelope
+  constexpr double kRunOn = 0.02;          // of the motion's time, at both ends: no pose at an end leaves the border
   constexpr double kNearlyCovered = 0.98;  // by the samples: what misses more has something else to mend first
   const double size = polished.draft.targets.front()->diagonal();
   const CoverageEstimate& estimate = polished.estimate;
@@ -107,6 +109,7 @@ Polished refine_exact_envelope(const Polished& polished, const std::vector<Surfa
   if (stopping() || estimate.at_tolerance < kNearlyCovered || estimate.rms_mm > nearest * size) return polished;
   const std::vector<FacePoint> points = target_points(polished.draft, kMean.points_per_side, reach_of(options));
   Polished best = polished, trial = polished;
+  trial.draft = run_on(polished.draft, kRunOn);
   for (const bool last : {false, true}) {
     if (stopping()) break;
     const FitStage stage = envelope_stage(last, options, size);

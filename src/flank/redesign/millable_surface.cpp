@@ -116,7 +116,8 @@ std::optional<MillableSurface> millable_surface(const RuledMotion& motion, const
       out.deviation_mm = std::max(out.deviation_mm, (spline - exact).norm());
     }
     constexpr double kEnd = 1e-6;
-    for (const Touch& at : touched) out.at_ends += at.t < kEnd || at.t > 1.0 - kEnd ? 1 : 0;
+    const auto at_end = [](double share) { return share < kEnd || share > 1.0 - kEnd; };
+    for (const Touch& at : touched) out.at_ends += at_end(at.t) || at_end(at.s / radial.axis_length()) ? 1 : 0;
     why.clear();
     out.largest_c = c;
     out.used_from_s = s.low, out.used_to_s = s.high, out.used_from_t = t.low, out.used_to_t = t.high;

@@ -12,6 +12,7 @@
 #include "flank/base/kept/read_files.h"
 #include "flank/base/stopping.h"
 #include "flank/error.h"
+#include "flank/fit/lengthen.h"
 #include "flank/io/cad/write_step.h"
 #include "flank/io/text/json_input.h"
 #include "flank/job/input_files.h"
@@ -34,7 +35,7 @@ namespace fs = std::filesystem;
 /// motion. Both are well below what counts as exact.
 constexpr double kSplineShare = 5e-8, kChordShare = 2e-8;
 constexpr int kExtensions = 3;
-constexpr double kExtensionShare = 0.03;
+constexpr double kExtensionShare = 0.03, kRunOnShare = 0.02;
 constexpr std::size_t kGuideLines = 60;
 constexpr double kGuideOverrun = 0.02;  ///< of the way that the face needs: so much more of the motion is run
 
@@ -195,27 +196,42 @@ int places_at_ends(const std::vector<ChangedFace>& changed) {
   return count;
 }
 
-/// The nearest envelope that reaches past the borders of all faces. Where it does not at first, or where the first or the last pose cuts
-/// what the motion leaves, motions and tool are lengthened, and fitted again; the best of these.
-NearestEnvelope reaching(NearestProblem problem, const Setup& setup, const Search& search, const Progress& progress,
-                         std::vector<ChangedFace>& changed) {
-  std::string why;
-  std::optional<NearestEnvelope> best;
-  // Where there is a surface already, one more try is worth its time.
-  for (int round = 0; round <= (best ? 1 : kExtensions); ++round) {
-    NearestEnvelope nearest = nearest_envelope(problem, progress);
-    stop_here();
-    std::vector<ChangedFace> found = surfaces_of(nearest, setup, search, why);
-    problem.start = evenly_run(nearest.draft, kExtensionShare);
-    if (found.empty()) continue;
-    const int ends = places_at_ends(found);
-    if (best && ends >= places_at_ends(changed)) continue;
-    best = std::move(nearest);
-    changed = std::move(found);
-    if (ends == 0) break;
+/// An envelope and the surfaces that it leaves.
+struct Reached {
+  NearestEnvelope nearest;
+  std::vector<ChangedFace> changed;  ///< empty: a face is not reached
+  int ends = 0;                      ///< places that an end of a motion or of the tool leaves, and no envelope
+};
+
+/// The motions as they were found, or run on at both ends where fewer places are left to these then.
+Reached reached_by(const NearestEnvelope& found, const Setup& setup, const Search& search, std::string& why) {
+  Reached best;
+  for (const double share : {0.0, kRunOnShare, 2.0 * kRunOnShare}) {
+    Reached next{found, {}, 0};
+    if (share > 0.0) next.nearest.draft = run_on(found.draft, share);
+    next.changed = surfaces_of(next.nearest, setup, search, why);
+    next.ends = places_at_ends(next.changed);
+    const bool better = best.changed.empty() || next.ends < best.ends;
+    if (better && !next.changed.empty()) best = std::move(next);
+    if (!best.changed.empty() && best.ends == 0) break;
   }
-  if (!best) throw InputError(why);
-  return std::move(*best);
+  return best;
+}
+
+/// The nearest envelope that reaches past the borders of all faces. Where it does not at first, or where an end of a motion or of the tool
+/// leaves a place, motions and tool are lengthened, and fitted again; the best of these.
+Reached reaching(NearestProblem problem, const Setup& setup, const Search& search, const Progress& progress) {
+  std::string why;
+  Reached best;
+  for (int round = 0; round <= kExtensions && (best.changed.empty() || best.ends > 0); ++round) {
+    const NearestEnvelope nearest = nearest_envelope(problem, progress);
+    stop_here();
+    Reached next = reached_by(nearest, setup, search, why);
+    problem.start = evenly_run(nearest.draft, kExtensionShare);
+    if (!next.changed.empty() && (best.changed.empty() || next.ends < best.ends)) best = std::move(next);
+  }
+  if (best.changed.empty()) throw InputError(why);
+  return best;
 }
 
 /// Tool and motions as a result of a fit, judged against the faces as they were.
@@ -348,9 +364,8 @@ Redesign run_redesign(const RedesignJob& job, const std::string& output, const P
   out.part_sha256 = setup.part.sha256;
   const Search search = search_start(job, fit, setup, progress.part(0.02, 0.6));
   progress.step("redesign", 0.6);
-  std::vector<ChangedFace> changed;
-  const NearestEnvelope nearest =
-      reaching(problem_of(job, setup, search), setup, search, progress.part(0.6, 0.8), changed);
+  const auto [nearest, changed, ends] =
+      reaching(problem_of(job, setup, search), setup, search, progress.part(0.6, 0.8));
   for (const ChangedFace& face : changed) {
     out.largest_c = std::max(out.largest_c, face.surface.largest_c);
     out.surface_error_mm.push_back(face.surface.deviation_mm);
