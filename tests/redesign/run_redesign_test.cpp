@@ -83,9 +83,8 @@ TEST_F(RedesignOf, TheImpellersBladeLosesNoneOfItsSolids) {
   job.ignore_faces = "S2-S11";
   const Redesign redesign = made(job);
   EXPECT_EQ(redesign.checked.solids, 11);
-  EXPECT_TRUE(redesign.solid_valid()) << redesign_text(redesign);
-  EXPECT_TRUE(redesign.met()) << redesign_text(redesign);
-  EXPECT_LT(redesign.exact.overcut_mm, 1e-6 * redesign.result.diagonal_mm);
+  const double size = redesign.result.diagonal_mm;
+  expect_closed_loop(redesign, fitted_again(redesign, 5e-5 * size), size);
   EXPECT_LT(std::max(redesign.faces.front().highest_mm, -redesign.faces.front().lowest_mm), 0.01);
 }
 

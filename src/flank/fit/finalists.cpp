@@ -217,9 +217,8 @@ FitCandidate with_final_fit(const FitCandidate& winner, const std::vector<Surfac
   exact.enough = false;
   settle_if_enough(exact, samples, options);
   // A given tool was lifted out of all overcut, at the price of what a lift leaves everywhere: a few digits of it are worth more.
-  const FitDraft& draft = winner.polished.draft;
-  const double none = draft.free_tool ? 0.0 : kDigitsShare * draft.targets.front()->diagonal();
-  const bool deeper = exact.polished.estimate.overcut_mm > std::max(winner.polished.estimate.overcut_mm, none);
+  const double may = exact_overcut(winner.polished.draft, options.tolerance_mm);
+  const bool deeper = exact.polished.estimate.overcut_mm > std::max(winner.polished.estimate.overcut_mm, may);
   return deeper || (winner.enough && !exact.enough) ? winner : exact;
 }
 

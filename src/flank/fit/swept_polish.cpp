@@ -116,7 +116,7 @@ Polished refine_exact_envelope(const Polished& polished, const std::vector<Surfa
     trial = assess(run_swept(trial.draft, options.bounds, stage, points, trace), samples, options);
     const CoverageEstimate &now = trial.estimate, &before = best.estimate;
     if (now.rms_mm > kEnvelopeGains * before.rms_mm) break;
-    const double deepest = std::max(before.overcut_mm, kDigitsShare * size);
+    const double deepest = std::max(before.overcut_mm, exact_overcut(trial.draft, options.tolerance_mm));
     const bool keeps = now.at_tolerance >= before.at_tolerance && std::max(now.overcut_mm, now.gouge_mm) <= deepest &&
                        (now.largest_c < 1.0 || now.largest_c <= before.largest_c);
     if (!keeps) continue;

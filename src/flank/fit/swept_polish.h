@@ -32,9 +32,6 @@ namespace flank::internal {
                                       const std::vector<SurfaceSample>& samples, const FlankFitOptions& options,
                                       std::vector<IterationTrace>* trace);
 
-/// Of the size: overcut of an exact fit that is as good as none.
-inline constexpr double kDigitsShare = 2e-6;
-
 /// On a target that seems to be the tool's envelope (mean error over the samples below 3e-5 of the size, of a given tool, which may have
 /// been lifted, 1e-4, and nearly all of it covered): two passes without a dead zone, and with all but no weights but the error's. Residuals are those of
 /// the face, so the rim is held, which passes at the axis let go. Kept as far as mean error and overcut fall and
