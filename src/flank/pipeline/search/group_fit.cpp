@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <functional>
-#include <optional>
 #include <utility>
 
 #include "flank/base/journal.h"
@@ -49,14 +48,13 @@ FlankFitResult closely_measured(FlankFitResult best, const Target& target, const
 /// One row of the schedule of a search that may take as many strips as it needs.
 struct Trial {
   int strips = 1;
-  bool full = false;  ///< with all passes and other ways: others leave them out where a strip more promises more
-  bool soft = false;  ///< with a tool that is more slender than the bounds allow
+  bool soft =
+      false;  ///< with a tool that is more slender than the bounds allow, and all that one strip can do within them before
 };
 
-/// Cheap trials first. What one strip can do at its best is known before three are tried, and what a softer tool does in one before six
-/// are, each of which costs several times as much.
-constexpr std::array kSchedule = {Trial{1}, Trial{2}, Trial{1, true}, Trial{3},          Trial{4}, Trial{1, true, true},
-                                  Trial{6}, Trial{8}, Trial{10},      Trial{kMostStrips}};
+/// Cheap trials first: a softer tool costs several times as much as a few strips more.
+constexpr std::array kSchedule = {Trial{1}, Trial{2}, Trial{3},  Trial{4},          Trial{1, true},
+                                  Trial{6}, Trial{8}, Trial{10}, Trial{kMostStrips}};
 
 /// All that is asked but the bound on slenderness, which is no demand.
 bool meets_softly(const FlankFitResult& fit, double wanted, FlankFitOptions options) {
@@ -82,7 +80,7 @@ class StripSearch {
       if (trial.strips > demand_.most_strips || !is_worth(trial)) continue;
       const double here = 1.0 - rest_;  // nobody knows how many follow: each gets a half of what is left
       const Progress part = progress.part(here, 1.0 - (rest_ *= 0.5));
-      trial.full ? try_fully(trial, part) : try_strips(trial, part);
+      trial.soft ? try_softly(part) : try_strips(trial, part);
       if (meets(best_.after, wanted_, options_) || (trial.soft && meets_softly(best_, wanted_, options_)) ||
           !goes_on_ || progress.stop())
         break;
@@ -99,42 +97,40 @@ class StripSearch {
   /// One strip that is far from doing it is not worth its last passes.
   [[nodiscard]] bool is_worth(const Trial& trial) const {
     constexpr double kFar = 0.5;  // of the face
-    if (!trial.full) return true;
-    return best_.after.unheld <= 0.0 && options_.search_without_obstacles && one_covers_ >= kFar &&
-           (!trial.soft || demand_.soften);
+    if (!trial.soft) return true;
+    return best_.after.unheld <= 0.0 && options_.search_without_obstacles && one_covers_ >= kFar && demand_.soften;
   }
 
   void try_strips(const Trial& trial, const Progress& progress) {
     FlankFitOptions options = options_;
     options.strips = trial.strips;
-    options.search_without_obstacles =
-        options_.search_without_obstacles && !ways_last_ && !covers(best_.after, wanted_, options_);
+    // Other ways cost as much as all before, and a strip more: with several strips they come last.
+    options.search_without_obstacles = options_.search_without_obstacles && trial.strips == 1;
     options.least_coverage_for_last_passes = trial.strips < demand_.most_strips ? kPromising : 0.0;
     options.least_coverage_for_close_look = least_to_look_at(best_, options);
     FlankFitResult result = fit_automatic(target_, tool_, options, progress);
     if (trial.strips == 1) one_covers_ = result.after.at_tolerance;
-    // They cost as much as all before, and one strip more leads no axis out of another face.
-    if (result.unobstructed_search == UnobstructedSearch::kHopeless || result.after.unheld > 0.0) ways_last_ = true;
     keep_better(best_, std::move(result), options_);
     goes_on_ = gain_.goes_on(best_);
   }
 
-  void try_fully(const Trial& trial, const Progress& progress) {
+  void try_softly(const Progress& progress) {
     FlankFitOptions options = options_;
     options.strips = 1;
-    if (!one_) one_ = fit_automatic(target_, tool_, options, progress);
-    one_covers_ = std::max(one_covers_, one_->after.at_tolerance);
-    FlankFitResult result = trial.soft ? relax_stiffness_bounds(target_, tool_, options, *one_, progress) : *one_;
-    keep_better(best_, std::move(result), options_);
+    FlankFitResult one = fit_automatic(target_, tool_, options, progress.part(0.0, 0.5));
+    one_covers_ = std::max(one_covers_, one.after.at_tolerance);
+    if (!meets(one.after, wanted_, options_) && !progress.stop())
+      one = relax_stiffness_bounds(target_, tool_, options, std::move(one), progress.part(0.5, 1.0));
+    keep_better(best_, std::move(one), options_);
   }
 
   /// The other ways that were left out on the way.
   void last_try(const Progress& progress) {
-    if (!options_.search_without_obstacles || !ways_last_ || best_.after.unheld > 0.0 ||
-        meets_softly(best_, wanted_, options_) || progress.stop())
+    if (!options_.search_without_obstacles || best_.motions.size() < 2 || best_.after.unheld > 0.0 ||
+        covers(best_.after, wanted_, options_) || progress.stop())
       return;
     FlankFitOptions options = options_;
-    options.strips = std::max<int>(1, static_cast<int>(best_.motions.size()));
+    options.strips = static_cast<int>(best_.motions.size());
     keep_better(best_, fit_automatic(target_, tool_, options, progress.part(1.0 - rest_, 1.0)), options_);
   }
 
@@ -145,8 +141,6 @@ class StripSearch {
   double wanted_ = 1.0, one_covers_ = 0.0, rest_ = 1.0;
   StripGain gain_;
   bool goes_on_ = true;
-  bool ways_last_ = false;             ///< other ways are left to the last try
-  std::optional<FlankFitResult> one_;  ///< what one strip does at its best
   FlankFitResult best_;
 };
 
