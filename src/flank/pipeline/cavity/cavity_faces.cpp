@@ -53,7 +53,7 @@ std::vector<std::pair<double, int>> nearest_first(const Part& part, const Vec3& 
   return out;
 }
 
-/// The nearest other face of the part that faces `left`; empty: none does. Faces much smaller than it are no walls.
+/// The nearest other face of the part that lies opposite `left`; empty: none does. Faces much smaller than it are no walls.
 std::string face_across(const Part& part, const Target& left) {
   constexpr double kLeastArea = 0.2;
   Vec3 middle = Vec3::Zero();
@@ -83,11 +83,11 @@ std::string accepted_across(const TrochoidJob& job, const Part& part) {
   const bool of_solid = left.front().of_solid;
   for (const int side : {+1, -1}) {
     const std::string across = face_across(part, *make_target(left, side));
-    if (!across.empty()) return across + " faces " + job.left;
+    if (!across.empty()) return across + " lies opposite " + job.left;
     if (of_solid) break;
   }
-  return "no face of the part that is large enough faces " + job.left +
-         "; a side may be several faces that are joined, like F9,F10";
+  return "no large enough face of the part lies opposite " + job.left +
+         "; a side may be several lies opposite that are joined, like F9,F10";
 }
 
 void check_facing(const TrochoidJob& job, const Setup& setup, const Target& left, const Target& right) {
@@ -107,7 +107,7 @@ void check_facing(const TrochoidJob& job, const Setup& setup, const Target& left
 
 CavityFaces cavity_faces(const TrochoidJob& job, const Setup& setup) {
   if (setup.part.is_mesh())
-    throw InputError("part", setup.part.file + ": is a mesh; a cavity needs faces (STEP, IGES or BREP)");
+    throw InputError("part", setup.part.file + ": is a mesh; a cavity needs lies opposite (STEP, IGES or BREP)");
   CavityFaces out;
   std::vector<TargetGroup> groups = make_targets(setup);
   const std::size_t left = group_of(groups, parse_face_list(setup.part, job.left).front());
