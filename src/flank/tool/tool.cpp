@@ -96,7 +96,7 @@ std::string reason(const RadialFunction& radial, int which, double s) {
         "must exceed its distance from the axis)",
         1.0 - f.d1 * f.d1 - f.r * f.d2, s);
   else
-    print("the profile is too steep: r' = %.6g at s = %.6g mm; |r'| must be below 1", f.d1, s);
+    print("the profile is too steep: r' = %.6g at s = %.6g mm (|r'| < 1 is required)", f.d1, s);
   return text.data();
 }
 

@@ -87,7 +87,7 @@ std::string accepted_across(const TrochoidJob& job, const Part& part) {
     if (of_solid) break;
   }
   return "no large enough face of the part lies opposite " + job.left +
-         "; a side may be several lies opposite that are joined, like F9,F10";
+         "; a side may be several faces that are joined, like F9,F10";
 }
 
 void check_facing(const TrochoidJob& job, const Setup& setup, const Target& left, const Target& right) {
@@ -107,7 +107,7 @@ void check_facing(const TrochoidJob& job, const Setup& setup, const Target& left
 
 CavityFaces cavity_faces(const TrochoidJob& job, const Setup& setup) {
   if (setup.part.is_mesh())
-    throw InputError("part", setup.part.file + ": is a mesh; a cavity needs lies opposite (STEP, IGES or BREP)");
+    throw InputError("part", setup.part.file + ": is a mesh; a cavity needs faces (STEP, IGES or BREP)");
   CavityFaces out;
   std::vector<TargetGroup> groups = make_targets(setup);
   const std::size_t left = group_of(groups, parse_face_list(setup.part, job.left).front());
