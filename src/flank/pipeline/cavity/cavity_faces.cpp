@@ -53,7 +53,7 @@ std::vector<std::pair<double, int>> nearest_first(const Part& part, const Vec3& 
   return out;
 }
 
-/// The nearest other face of the part that lies opposite `left`; empty: none does. Faces much smaller than it are no walls.
+/// The nearest other face of the part opposite `left`; empty: none is. Faces much smaller than it are no walls.
 std::string face_across(const Part& part, const Target& left) {
   constexpr double kLeastArea = 0.2;
   Vec3 middle = Vec3::Zero();
