@@ -16,6 +16,8 @@ install(DIRECTORY include/flank DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONEN
 install(FILES ${PROJECT_BINARY_DIR}/include/flank/version.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/flank COMPONENT dev)
 install(DIRECTORY share/catalogue share/machines share/materials DESTINATION ${CMAKE_INSTALL_DATADIR}/openflank COMPONENT command)
 install(FILES LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT command)
+# What the help texts name: docs/schema/machine.md and its neighbours.
+install(DIRECTORY docs/schema DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT command FILES_MATCHING PATTERN "*.md")
 
 # Man pages and the completion of bash, made from the command's own help.
 if(TARGET flank_app AND Python3_FOUND AND NOT FLANK_SANITIZE)

@@ -5,19 +5,21 @@ usage: results.py [--check]   (--check changes nothing and ends with 1 if a tabl
 
 A table stands between `<!-- results: NAME -->` and `<!-- end -->`; NAME.json has its rows. A file has either "columns" and rows of cells, or rows
 of figures by name, of which a table shows those in "show", else all below that any row has. `<!-- results: trust -->` is made from all files
-that bench/run_results.py has measured; `<!-- usable: NAME -->` stands before how many rows of a file are usable.
+that bench/run_results.py has measured; `<!-- usable: NAME -->` stands before how many rows of a file are usable,
+`<!-- seconds: NAME -->` before the processor time that they take.
 """
 
 import json
 import pathlib
 import re
+import statistics
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 RESULTS = ROOT / "bench/results"
 DOCUMENTS = ("docs/results.md", "README.md")
 TABLE = re.compile(r"(<!-- results: ([\w-]+) -->\n).*?(<!-- end -->)", re.DOTALL)
-COUNT = re.compile(r"(<!-- usable: ([\w-]+) -->).*?(<!-- end -->)")
+FIGURE = re.compile(r"(<!-- (usable|seconds): ([\w-]+) -->).*?(<!-- end -->)")
 MOST_NAMED = 5  # rows that fail, in the table of all sets
 
 
@@ -110,6 +112,12 @@ def usable(name):
     return f"{sum(map(good, rows))} of {len(rows)}"
 
 
+def seconds(name):
+    """The least and the most of its commands, and the median."""
+    times = sorted(float(time) for row in measured_rows(name) for time in row["cpu_s"].split(", "))
+    return f"{times[0]:g} to {times[-1]:g} s (median {statistics.median(times):.0f} s)" if times else "an unknown time"
+
+
 def table(name):
     if name == "trust":
         return trust()
@@ -129,7 +137,7 @@ def main():
         file = ROOT / name
         text = file.read_text(encoding="utf-8")
         rendered = TABLE.sub(lambda match: match[1] + table(match[2]) + match[3], text)
-        rendered = COUNT.sub(lambda match: match[1] + usable(match[2]) + match[3], rendered)
+        rendered = FIGURE.sub(lambda match: match[1] + {"usable": usable, "seconds": seconds}[match[2]](match[3]) + match[4], rendered)
         if rendered != text:
             stale.append(name)
             if "--check" not in sys.argv[1:]:

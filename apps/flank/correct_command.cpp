@@ -22,7 +22,8 @@ Subcommand add_correct(CLI::App& parser) {
   app->add_option("-o,--output", *folder, "Folder for the new result")->required();
   app->footer(
       "Examples: flank correct out --profile ground.csv -o ground; flank correct out --measured points.csv -o "
-      "corrected\nThe verdict is about the new motion: of measured points against the mirrored face.");
+      "corrected\nThe verdict is about the new motion. With --measured it is checked against the face with its error "
+      "mirrored.");
   const auto run = [job, folder](const CommonOptions& common) {
     const Correction correction = run_correct(*job, *folder, terminal_progress(common));
     write_correction(correction, *folder);

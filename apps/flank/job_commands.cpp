@@ -138,7 +138,8 @@ Subcommand add_verify(CLI::App& parser) {
   app->footer(
       "Example: flank example twisted-blade -o blade.step && flank fit blade.step --face F1 -o out --tolerance 0.1; "
       "flank verify out\n"
-      "A program: flank post out --machine linuxcnc-xyzac-trt -o part.ngc; flank verify out --nc part.ngc --machine "
+      "A program: flank post out --machine linuxcnc-xyzac-trt --spindle 8000 --feed 1000 -o part.ngc; flank verify out "
+      "--nc part.ngc --machine "
       "linuxcnc-xyzac-trt");
   const auto run = [job](const CommonOptions& common) {
     end_on_signals();

@@ -65,7 +65,7 @@ std::string ProgressLine::line(std::string_view stage, double share, double seco
   left_.report(seconds, share);
   std::string line = fmt::format("{} {:3.0f} %", stage, 100.0 * share);
   if (best_) line += fmt::format(", best {:.1f} %", 100.0 * best_->coverage);
-  if (best_ && !best_->clean) line += fmt::format(", cutting {:.3g} mm deep", best_->deepest_mm);
+  if (best_ && !best_->clean) line += fmt::format(", gouging by {:.3g} mm", best_->deepest_mm);
   if (const std::optional<double> left = left_.seconds(seconds)) line += ", " + time_left_text(*left);
   return line;
 }

@@ -174,8 +174,8 @@ struct CoverageEstimate {
   [[nodiscard]] double score(double tolerance_mm) const;
 };
 
-/// A tool that a search tried, and what it does, by the planner's estimate.
-struct TriedTool {
+/// A tool that a search polished and did not choose, and what it does, by the planner's estimate.
+struct RejectedTool {
   double slenderness = 0.0;  ///< of flank and shank, as RadiusBounds::slenderest counts; infinite for what is no tool
   double axis_length_mm = 0.0, largest_radius_mm = 0.0;
   int strips = 0;
@@ -197,12 +197,12 @@ struct FlankFitResult {
   std::string message;  ///< one line for the user
   RadialFunction tool;
   std::vector<RuledMotion> motions;
-  CoverageEstimate before, after;     ///< of the chosen start, of the result
-  ResidualSummary residuals;          ///< on a grid of its own with cold footpoints: no sample of a pass is among them
-  std::vector<IterationTrace> trace;  ///< of the chosen candidate, all passes from the polish on
-  std::vector<std::string> notes;     ///< for the user, added by callers
-  int candidates = 0;                 ///< starts that were tried
-  std::vector<TriedTool> tried;       ///< what was polished and not chosen, in its order
+  CoverageEstimate before, after;      ///< of the chosen start, of the result
+  ResidualSummary residuals;           ///< on a grid of its own with cold footpoints: no sample of a pass is among them
+  std::vector<IterationTrace> trace;   ///< of the chosen candidate, all passes from the polish on
+  std::vector<std::string> notes;      ///< for the user, added by callers
+  int candidates = 0;                  ///< starts that were tried
+  std::vector<RejectedTool> rejected;  ///< what was polished and not chosen, in its order
   UnobstructedSearch unobstructed_search = UnobstructedSearch::kNotTried;
   bool closely_measured = true;  ///< closely: false as FlankFitOptions::least_coverage_for_close_look says
 };
@@ -233,7 +233,7 @@ struct FlankFitResult {
                                              const ToolModel& tool, const FlankFitOptions& options);
 
 /// A result that turns out to cut deeper than the tolerance at options.extra_overcut_points, between the samples that it was looked at
-/// with, led out of what it cuts. `tasks`: its targets and what is in the way of each of its motions. Notes and tried
+/// with, led out of what it cuts. `tasks`: its targets and what is in the way of each of its motions. Notes and rejected
 /// tools stay. None if nothing better is found.
 [[nodiscard]] std::optional<FlankFitResult> mend_fit(const std::vector<FitTask>& tasks, const FlankFitResult& found,
                                                      const ToolModel& tool, const FlankFitOptions& options);

@@ -74,7 +74,8 @@ void bind_result(py::module_& module) {
   py::class_<Result, std::shared_ptr<Result>>(module, "Result", "A tool, its path and their verdict.")
       .def_readonly("tool", &Result::tool, "The tool.")
       .def_readonly("path", &Result::path, "The path.")
-      .def_readonly("motions", &Result::motions, "Motion k belongs to pass k of the path; of a cavity: the side paths.")
+      .def_readonly("motions", &Result::motions,
+                    "The motion of each pass of the path; of a cavity, those of the two side paths.")
       .def_readonly("report", &Result::verify, "The figures of the check.")
       .def_readonly("notes", &Result::notes, "Notes: repairs of the part, warnings.")
       .def_readonly("complete", &Result::complete, "False: the run was stopped early, and the result is unfinished.")

@@ -110,10 +110,10 @@ TEST_F(CliProgram, NamesLineAndAxisOfALimit) {
   const Outcome judged =
       flank({"verify", path("fit"), "--nc", path("fanuc-ac.nc"), "--machine", path("small.toml"), "--json"});
   EXPECT_EQ(judged.exit_code, 1) << judged.err;
-  EXPECT_NE(judged.out.find("joint X would stand at"), std::string::npos) << judged.out;
+  EXPECT_NE(judged.out.find("axis X would stand at"), std::string::npos) << judged.out;
   EXPECT_NE(judged.out.find("fanuc-ac.nc: line "), std::string::npos) << judged.out;
   const std::vector<std::string> far = joined(post("fanuc-ac"), {"--setup", "9000,0,0,0,0,0"});
-  expect_refused(far, 3, "joint X would stand at");
+  expect_refused(far, 3, "axis X would stand at");
   expect_refused(joined(post("fanuc-ac"), {"--setup", "9000,0"}), 2, "--setup");
   expect_refused({"post", path("fit"), "--machine", "lathe", "--dry", "-o", path("x.nc")}, 3, "--machine");
   expect_refused({"post", path("fit"), "--machine", "fanuc-ac", "--dry", "-o", path("fit/path.json")}, 3, "path.json");

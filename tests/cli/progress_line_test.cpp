@@ -99,9 +99,9 @@ TEST(ProgressLine, SaysWhatIsKnown) {
 TEST(ProgressLine, KeepsTheBest) {
   ProgressLine line;
   line.found({.coverage = 0.8, .deepest_mm = 0.44, .clean = false});
-  EXPECT_EQ(line.line("polish", 0.1, 0.0), "polish  10 %, best 80.0 %, cutting 0.44 mm deep");
+  EXPECT_EQ(line.line("polish", 0.1, 0.0), "polish  10 %, best 80.0 %, gouging by 0.44 mm");
   line.found({.coverage = 0.3, .deepest_mm = 0.0, .clean = true});
-  EXPECT_EQ(line.line("polish", 0.1, 0.0), "polish  10 %, best 80.0 %, cutting 0.44 mm deep") << "less than half";
+  EXPECT_EQ(line.line("polish", 0.1, 0.0), "polish  10 %, best 80.0 %, gouging by 0.44 mm") << "less than half";
   line.found({.coverage = 0.5, .deepest_mm = 0.0, .clean = true});
   line.found({.coverage = 0.9, .deepest_mm = 0.1, .clean = false});
   line.found({.coverage = 0.4, .deepest_mm = 0.0, .clean = true});

@@ -2,6 +2,7 @@
 """Runs the commands of a document as they are printed, in a new folder, one after the other.
 
 usage: run_documents.py FLANK FILE
+       run_documents.py FLANK help COMMAND...   (the examples in the help of these commands, one after the other in one folder)
 
 Of blocks marked `sh`, each line that begins with `flank` is run, but for those whose comment begins with "long" or "needs". A comment that
 begins with "exit N" names the exit code; else it is 0. A block marked `toml` is what the document calls plan.toml. The commands of the
@@ -50,12 +51,22 @@ def run(command, code, most_s, folder, path):
     return f"{command}: {took:.1f} s of a processor; at most {most_s:g}" if took > most_s else None
 
 
+def help_examples(flank, names):
+    """The examples of these commands as a block of commands: lines of the help that begin with flank, each with what a backslash joins to it."""
+    lines = []
+    for name in names:
+        text = subprocess.run([flank, name, "--help"], check=True, capture_output=True, text=True).stdout.replace("\\\n", "")
+        lines += [" ".join(line.split()) for line in text.splitlines() if line.startswith("  flank ")]
+    return "\n".join(lines)
+
+
 def main():
     flank, document = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
     path = f"{flank.parent}:{os.environ['PATH']}"
+    texts = [("sh", help_examples(flank, sys.argv[3:]))] if document.name == "help" else blocks(document.read_text(encoding="utf-8"))
     readme, first, number, faults = document.name == "README.md", True, 0, []
     with tempfile.TemporaryDirectory() as folder:
-        for language, block in blocks(document.read_text(encoding="utf-8")):
+        for language, block in texts:
             if language == "toml":
                 (pathlib.Path(folder) / "plan.toml").write_text(block, encoding="utf-8")
             if language != "sh":

@@ -106,7 +106,7 @@ TEST(MachineFile, RefusesChainsThatHoldNoTool) {
   expect_refused(about_itself, "turns the tool about itself");
   expect_refused(replaced(good, "direction = [0.0, 1.0, 0.0]", "direction = [1.0, 0.0, 0.0]"), "lie in one plane");
   const std::size_t z = good.find("[[head]]\nname = \"Z\"");
-  expect_refused(good.substr(0, z) + good.substr(good.find("[spindle]")), "2 linear and 2 rotary joints");
+  expect_refused(good.substr(0, z) + good.substr(good.find("[spindle]")), "2 linear and 2 rotary axes");
 }
 
 TEST(MachineFile, ReadsOutlinesOfTableAndHead) {

@@ -52,7 +52,7 @@ TEST(CavityFaces, WhatTouchesIsOneSideAndTheOtherIsNamed) {
   setup.targets = {0, 2};
   const std::string said = refused(setup, "F3");
   EXPECT_NE(said.find("1 connected side"), std::string::npos) << said;
-  EXPECT_NE(said.find("F2 faces F1"), std::string::npos) << said;
+  EXPECT_NE(said.find("F2 lies opposite F1"), std::string::npos) << said;
 }
 
 TEST(CavityFaces, WhereNothingIsAcrossThatIsSaid) {
@@ -60,7 +60,7 @@ TEST(CavityFaces, WhereNothingIsAcrossThatIsSaid) {
   setup.part.faces.erase(setup.part.faces.begin() + 1);  // F1 and F3 alone
   setup.targets = {0, 1};
   const std::string said = refused(setup, "F3");
-  EXPECT_NE(said.find("no face of the part that is large enough faces F1"), std::string::npos) << said;
+  EXPECT_NE(said.find("no large enough face of the part lies opposite F1"), std::string::npos) << said;
 }
 
 }  // namespace

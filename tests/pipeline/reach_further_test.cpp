@@ -5,7 +5,7 @@
 
 #include "fit/flat_scene.h"
 #include "flank/fit/coverage.h"
-#include "flank/fit/tried.h"
+#include "flank/fit/rejected.h"
 #include "flank/threads.h"
 #include "sanitized.h"
 

@@ -99,11 +99,12 @@ TEST(RunFit, TellsTheFiguresOfAFit) {
 
 TEST(RunFit, TellsWhatWasTriedAsSharesOfTheWholeFace) {
   FlankFitResult fit;
-  TriedTool tried{.slenderness = 4.0, .axis_length_mm = 40.0, .largest_radius_mm = 5.0, .strips = 2, .estimate = {}};
-  tried.estimate.at_tolerance = 0.9, tried.estimate.gouge_mm = 0.03;
-  fit.tried = {tried, tried, tried};
-  fit.tried[1].slenderness = std::numeric_limits<double>::infinity();
-  fit.tried[2].estimate.overcut_mm = std::numeric_limits<double>::infinity();
+  RejectedTool rejected{
+      .slenderness = 4.0, .axis_length_mm = 40.0, .largest_radius_mm = 5.0, .strips = 2, .estimate = {}};
+  rejected.estimate.at_tolerance = 0.9, rejected.estimate.gouge_mm = 0.03;
+  fit.rejected = {rejected, rejected, rejected};
+  fit.rejected[1].slenderness = std::numeric_limits<double>::infinity();
+  fit.rejected[2].estimate.overcut_mm = std::numeric_limits<double>::infinity();
   FitJob job;
   const std::vector<StiffnessStep> steps = stiffness_steps(fit, job, 0.5);
   ASSERT_EQ(steps.size(), 1u) << "neither what is no tool nor a fit that lost its values";

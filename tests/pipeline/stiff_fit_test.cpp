@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "fit/flat_scene.h"
-#include "flank/fit/tried.h"
+#include "flank/fit/rejected.h"
 #include "flank/threads.h"
 
 namespace flank::internal {
@@ -105,11 +105,11 @@ TEST(NoteSlenderness, SaysWhatATooSlenderToolBuys) {
   note_slenderness({}, options, fit);
   EXPECT_TRUE(fit.notes.empty()) << "as slender as it may be";
   fit.tool = RadialFunction::spline(84.0, Eigen::VectorXd::Constant(6, 5.0));
-  fit.tried.resize(2);
-  fit.tried[0].slenderness = 6.0;
-  fit.tried[0].estimate.at_tolerance = 0.6;
-  fit.tried[1].slenderness = 9.0;
-  fit.tried[1].estimate.at_tolerance = 0.8;
+  fit.rejected.resize(2);
+  fit.rejected[0].slenderness = 6.0;
+  fit.rejected[0].estimate.at_tolerance = 0.6;
+  fit.rejected[1].slenderness = 9.0;
+  fit.rejected[1].estimate.at_tolerance = 0.8;
   note_slenderness({}, options, fit);
   ASSERT_EQ(fit.notes.size(), 1u);
   for (const char* figure : {"8.40", "8.0", "95.0", "60.0"})
@@ -121,20 +121,20 @@ TEST(NoteSlenderness, SaysWhatATooSlenderToolBuys) {
   EXPECT_EQ(fit.notes.size(), 1u);
 }
 
-TEST(TriedTools, AreThoseThatWereNotChosenInTheirOrder) {
+TEST(RejectedTools, AreThoseThatWereNotChosenInTheirOrder) {
   FlankFitResult chosen, beaten, empty;
   beaten.tool = RadialFunction::spline(30.0, Eigen::VectorXd::Constant(6, 5.0));
   beaten.motions.resize(2);
   beaten.after.at_tolerance = 0.5;
-  beaten.tried.resize(1);
-  beaten.tried[0].slenderness = 7.0;
+  beaten.rejected.resize(1);
+  beaten.rejected[0].slenderness = 7.0;
   RadiusBounds bounds;
-  add_tried(chosen, beaten, bounds);
-  add_tried(chosen, empty, bounds);
-  ASSERT_EQ(chosen.tried.size(), 2u);
-  EXPECT_EQ(chosen.tried[0].slenderness, 7.0);
-  EXPECT_NEAR(chosen.tried[1].slenderness, 3.0, 1e-6);
-  EXPECT_EQ(chosen.tried[1].strips, 2);
+  add_rejected(chosen, beaten, bounds);
+  add_rejected(chosen, empty, bounds);
+  ASSERT_EQ(chosen.rejected.size(), 2u);
+  EXPECT_EQ(chosen.rejected[0].slenderness, 7.0);
+  EXPECT_NEAR(chosen.rejected[1].slenderness, 3.0, 1e-6);
+  EXPECT_EQ(chosen.rejected[1].strips, 2);
   // A shank of the flank's radius makes the cylinder longer.
   bounds.shank_length = 15.0;
   EXPECT_NEAR(slenderness_of(beaten.tool, bounds), 4.5, 1e-3);

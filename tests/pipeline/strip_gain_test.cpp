@@ -64,10 +64,10 @@ TEST(StripGain, AToolThatWasBeatenButIsNearlyCleanIsAPromise) {
   EXPECT_TRUE(gain.goes_on(result_of(0.5, 0.05)));
   EXPECT_TRUE(gain.goes_on(result_of(0.5, 0.05)));
   FlankFitResult third = result_of(0.5, 0.05);
-  TriedTool tried;
-  tried.estimate.at_tolerance = 0.9;
-  tried.estimate.gouge_mm = 3.0 * kTolerance;
-  third.tried.push_back(tried);
+  RejectedTool rejected;
+  rejected.estimate.at_tolerance = 0.9;
+  rejected.estimate.gouge_mm = 3.0 * kTolerance;
+  third.rejected.push_back(rejected);
   EXPECT_TRUE(gain.goes_on(third));
 }
 

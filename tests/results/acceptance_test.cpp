@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "flank/results/cavity/stock_json.h"
 #include "flank/results/verify_json.h"
 #include "flank/results/verify_text.h"
 
@@ -159,7 +160,7 @@ TEST(AcceptCavity, EveryMotionIsHeldToTheLimitOfTheEngagement) {
   Acceptance sweep;
   accept_cavity(cavity, sweep);
   ASSERT_EQ(sweep.reasons.size(), 1u);
-  EXPECT_EQ(sweep.reasons[0].text, "layer 2: a finishing sweep has an engagement of 178.25 degrees > 60 degrees");
+  EXPECT_EQ(sweep.reasons[0].text, "layer 2: a finishing pass has an engagement of 178.25 degrees > 60 degrees");
   cavity = two_layers();
   cavity.layers[0].back_deg = 61.0;
   cavity.layers[1].status = "stuck";
@@ -185,8 +186,8 @@ TEST(AcceptStock, EveryKindOfStripIsHeldToTheLimitButForTheCells) {
     Acceptance over;
     accept_stock(stock, 60.0, 0.02, over);
     ASSERT_EQ(over.reasons.size(), 1u) << kind.kind;
-    EXPECT_EQ(over.reasons[0].text,
-              "stock simulation: a " + kind.kind + " has an engagement of 61.60 degrees > 60 + 1.50, pass 7");
+    EXPECT_EQ(over.reasons[0].text, "stock simulation: " + move_words(kind.kind) +
+                                        " with an engagement of 61.60 degrees > 60 + 1.50, pass 7");
     kind.engagement_deg = 0.0;
   }
 }

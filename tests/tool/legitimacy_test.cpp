@@ -57,9 +57,9 @@ TEST(Legitimacy, NegativeRadiusIsNamedWhereItFirstOccurs) {
 }
 
 TEST(Legitimacy, FormulasWithoutValueAreRefusedWithAReason) {
-  EXPECT_TRUE(says(check_legitimacy(family(ToolFamily::kPower, 20, {-1, 1, 1, 2})), "no finite value"));
-  EXPECT_TRUE(says(check_legitimacy(family(ToolFamily::kBarrel, 20, {5, 5, 8})), "no finite value"));
-  EXPECT_TRUE(says(check_legitimacy(family(ToolFamily::kLens, 20, {15, 5})), "no finite value"));
+  EXPECT_TRUE(says(check_legitimacy(family(ToolFamily::kPower, 20, {-1, 1, 1, 2})), "not a finite number"));
+  EXPECT_TRUE(says(check_legitimacy(family(ToolFamily::kBarrel, 20, {5, 5, 8})), "not a finite number"));
+  EXPECT_TRUE(says(check_legitimacy(family(ToolFamily::kLens, 20, {15, 5})), "not a finite number"));
 }
 
 /// The margin of a barrel is known: 1 - |r'| at the far end, or (arc / (arc - radius)) / W^3 there, or r / L.

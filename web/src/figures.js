@@ -57,7 +57,7 @@ function depthRows(verify) {
   else list.push(row('sampling_bound_mm', 'Between the samples', '', `between the ${verify.samples.toLocaleString('en')} samples a gouge may be deeper by at most this`));
   if (verify.allowance_mm > 0)
     list.unshift({ key: 'allowance_mm', name: 'Left on purpose', value: verify.allowance_mm, text: format.length(verify.allowance_mm, 3),
-      hint: 'asked for; gouge and excess are measured from the faces moved out by this' });
+      hint: 'requested; gouge and excess are measured from the faces moved out by this' });
   const { buried = [] } = verify;
   list.push({ key: 'buried.count', figure: 'buried', asks: true, name: 'Passes inside the material', value: buried.length, text: buried.length ? String(buried.length) : 'none',
     hint: buried.length ? `pass ${buried[0].strip}, near ${at(buried[0].point)}` : 'no pass runs inside a solid or behind its sheet' });
@@ -104,7 +104,7 @@ function stockRows(stock, cavity) {
   if (!stock) return [];
   const list = [{ key: 'stock.engagement_deg', figure: 'stock', asks: true, name: 'Engagement, simulated', value: stock.engagement_deg, text: `${format.plain(stock.engagement_deg, 4)}°`,
     wanted: cavity ? `≤ ${format.plain(cavity.most_engagement)}°${stock.resolution_deg ? ` + ${format.plain(stock.resolution_deg, 2)}°` : ''}` : '',
-    hint: 'in the stock simulation; the allowance is the size of its cells. The verdict of the simulation stands in this row' }];
+    hint: 'in the stock simulation; the second figure of the limit is the resolution of its cells. The verdict of the whole simulation stands in this row' }];
   if (typeof stock.uncut_mm === 'number') list.push({ key: 'stock.uncut_mm', name: 'Material left between the sides', value: stock.uncut_mm, text: format.length(stock.uncut_mm, 3),
     hint: stock.uncut_mm > 0 && stock.uncut_point ? `longest stretch, before ${at(stock.uncut_point)}` : 'no material is left between them' });
   if (typeof stock.entered_mm === 'number') list.push({ key: 'stock.entered_mm', name: 'Gouge, simulated', value: stock.entered_mm, text: format.error(stock.entered_mm),
@@ -145,7 +145,7 @@ export function rows(files) {
   for (const row of list) row.value ??= verify[row.key];
   list.push(...bendRows(summary), ...cavityRows(summary?.cavity), ...stockRows(verify?.stock, summary?.cavity), ...toolRows(files));
   attach(list, reasons(files), 'fail');
-  attach(list, earlier(files).map(({ figure, text }) => ({ figure, text: `when it was made: ${text}` })), 'warn');
+  attach(list, earlier(files).map(({ figure, text }) => ({ figure, text: `when the result was made: ${text}` })), 'warn');
   attach(list, cautions(files), 'warn');
   // What is asked and has no reason against it is kept; a file without reasons says nothing.
   if (Array.isArray(verify?.reasons))

@@ -117,7 +117,7 @@ PartMap run_part_map(const BoundJob& request, const Progress& progress) {
   PartMap map;
   map.job = request;
   map.tool = given_tool(request.tool.spec, request.tool.axis_length_mm,
-                        "needs a given tool: its longest contact is bounded", map.notes);
+                        "expected a given tool, as cylinder:radius=5 or a tool file", map.notes);
   progress.step("read", 0.0);
   map.part = read_part(request.part.file, request.part.unit);
   const std::vector<std::unique_ptr<Target>> targets = targets_of(map.part);

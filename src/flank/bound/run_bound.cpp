@@ -48,7 +48,7 @@ BoundResult run_bound(const BoundJob& request, const Progress& progress) {
   BoundResult result;
   result.job = request;
   result.tool = given_tool(request.tool.spec, request.tool.axis_length_mm,
-                           "needs a given tool: its longest contact is bounded", result.notes);
+                           "expected a given tool, as cylinder:radius=5 or a tool file", result.notes);
   progress.step("read", 0.0);
   ObstacleRequest obstacles;
   obstacles.check_faces = request.check_faces;

@@ -69,22 +69,23 @@ std::string ground_text(const GroundTool& ground) {
                                  ground.elsewhere, ground.noise_mm);
   text +=
       fmt::format("  its radii differ from the tool's by {:.4f} mm (rms {:.4f})\n", ground.largest_mm, ground.rms_mm);
-  if (!ground.outliers.empty()) text += fmt::format("  left out, by number:{}\n", indices(ground.outliers));
+  if (!ground.outliers.empty()) text += fmt::format("  points left out, by number:{}\n", indices(ground.outliers));
   return text;
 }
 
 std::string error_text(const FaceError& error) {
   std::string text = fmt::format("Face as cut: {} points on the face, {} off it; noise {:.4f} mm\n",
                                  error.points.size(), error.beside, error.noise_mm);
-  text += fmt::format("  the plan itself leaves {:.4f} mm rms there; what follows is what the machine adds to it\n",
-                      error.planned_rms_mm);
+  text +=
+      fmt::format("  the planned path itself leaves {:.4f} mm rms at these points; the errors below are without it\n",
+                  error.planned_rms_mm);
   text +=
       fmt::format("  error {:.4f} mm rms as measured, {:.4f} after a best fit of the datum, which removes {:.1f} %\n",
                   error.rms_before_mm, error.rms_after_mm, 100.0 * taken_away(error));
   text += fmt::format("  smooth error over the face: {:.4f} mm rms, {:.4f} at most\n", error.smooth_rms_mm,
                       error.smooth_largest_mm);
   if (error.limited) text += fmt::format("  the correction is limited to {:.4f} mm\n", error.limit_mm);
-  if (!error.outliers.empty()) text += fmt::format("  left out, by number:{}\n", indices(error.outliers));
+  if (!error.outliers.empty()) text += fmt::format("  points left out, by number:{}\n", indices(error.outliers));
   return text;
 }
 
@@ -113,13 +114,14 @@ std::string correction_text(const Correction& correction) {
   std::string text;
   if (correction.ground) {
     text = ground_text(*correction.ground);
-    text += judged_line("this tool on the old motion", correction.other);
-    text += judged_line("on the new motion", correction.result.verify);
+    text += judged_line("tool as ground, old motion", correction.other);
+    text += judged_line("tool as ground, new motion", correction.result.verify);
   }
   if (correction.error) {
     text = error_text(*correction.error);
-    text += judged_line("new motion against the mirrored face", correction.result.verify);
-    text += judged_line("against the nominal face, from which it deviates on purpose", correction.other);
+    text += judged_line("new motion, checked against the face with its error mirrored", correction.result.verify);
+    text += judged_line("new motion, checked against the nominal face, from which it deviates on purpose",
+                        correction.other);
   }
   return text;
 }

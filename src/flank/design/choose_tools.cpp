@@ -31,7 +31,7 @@ class Search {
  public:
   Search(const SetProblem& problem, int most) : problem_(problem), most_(std::min(most, problem.tools)) {
     for (const double x : problem.minutes)
-      if (!(x >= 0.0)) throw InternalError("the time of a tool on a face is below 0 or no number");
+      if (!(x >= 0.0)) throw InternalError("the time of a tool on a face is below 0 or not a number");
     // More than every set costs that leaves one face less.
     penalty_ = 1.0 + problem.tool_minutes * problem.tools;
     for (int f = 0; f < problem.faces; ++f) {

@@ -189,10 +189,9 @@ void add_count(const Part& part, const std::vector<WheelFace>& faces, const Whee
   out.count = choice.count ? *choice.count : sectors_of(angles);
   if (out.count == 0 && angles.size() == 1) out.count = sectors_of_cuts(faces, out.axis, part.box.diagonal());
   if (out.count == 0)
-    refuse(part, angles.size() == 1
-                     ? "it has one blade, and no two planes through the axis that give the number of sectors; "
-                       "give `count`"
-                     : "its blades are not evenly spaced round the axis");
+    refuse(part, angles.size() == 1 ? "it has one blade, and no two flat faces through the axis from which the number "
+                                      "of sectors follows; give `count`"
+                                    : "its blades are not evenly spaced round the axis");
   out.whole = static_cast<int>(angles.size()) == out.count;
 }
 

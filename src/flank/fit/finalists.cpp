@@ -13,8 +13,8 @@
 #include "flank/fit/fit_record.h"
 #include "flank/fit/partial_polish.h"
 #include "flank/fit/rank.h"
+#include "flank/fit/rejected.h"
 #include "flank/fit/swept_polish.h"
-#include "flank/fit/tried.h"
 
 namespace flank::internal {
 namespace {
@@ -69,11 +69,11 @@ double score_of(const FitCandidate& candidate, const FlankFitOptions& options) {
 /// The first of the last passes, cheap: they tell whether the others may lead anywhere.
 void begin(FitCandidate& candidate, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options,
            const Progress& progress) {
-  if (candidate.has_first_passes) return;
+  if (candidate.stage != PassStage::kPolished) return;
   advance(candidate, progress, "coarse fit", [&](FitCandidate& next) {
     const double before = score_of(next, options);
     next.polished = first_passes(next.polished, samples, options, &next.trace);
-    next.has_first_passes = true;
+    next.stage = PassStage::kFirst;
     next.gained = score_of(next, options) - before;
     settle_if_enough(next, samples, options);
   });
@@ -84,7 +84,7 @@ void pass(FitCandidate& candidate, const std::vector<SurfaceSample>& samples, co
           const Progress& progress) {
   advance(candidate, progress, "fine fit", [&](FitCandidate& next) {
     // Of one that has only begun, what it gained by that counts.
-    const double before = score_of(next, options) - (next.has_last_passes ? 0.0 : next.gained);
+    const double before = score_of(next, options) - (next.stage == PassStage::kLast ? 0.0 : next.gained);
     // Once: a close look costs as much as a pass, and what it has called short is mostly short after the next as well.
     bool looked = false;
     const auto enough = [&](const Polished& polished) {
@@ -95,13 +95,13 @@ void pass(FitCandidate& candidate, const std::vector<SurfaceSample>& samples, co
       settle_if_enough(next, samples, options);
       return next.enough;
     };
-    Polished passed = last_passes(next.polished, samples, options, &next.trace, enough,
-                                  next.has_first_passes && !next.has_last_passes);
+    Polished passed =
+        last_passes(next.polished, samples, options, &next.trace, enough, next.stage == PassStage::kFirst);
     if (!next.enough) {
       next.polished = std::move(passed);
       settle_if_enough(next, samples, options);
     }
-    next.has_first_passes = next.has_last_passes = true;
+    next.stage = PassStage::kLast;
     next.gained = score_of(next, options) - before;
   });
   tell_found(progress, candidate.polished.estimate, options.tolerance_mm);
@@ -138,8 +138,8 @@ std::vector<FitCandidate> polish_until_enough(const std::vector<FitDraft>& start
       candidates.push_back(std::move(candidate));
     }
     progress.step("polish", 0.5 + 0.2 * static_cast<double>(candidates.size()) / static_cast<double>(most));
-    const bool passed =
-        std::any_of(candidates.begin(), candidates.end(), [](const FitCandidate& r) { return r.has_last_passes; });
+    const bool passed = std::any_of(candidates.begin(), candidates.end(),
+                                    [](const FitCandidate& r) { return r.stage == PassStage::kLast; });
     if (!passed && !any_enough() && !progress.stop()) pass_if_near(candidates, samples, options, progress);
   }
   return candidates;
@@ -168,7 +168,7 @@ void pass_until_enough(std::vector<FitCandidate>& candidates, const std::vector<
     FitCandidate& candidate = candidates[k];
     const bool behind = score(candidate) + kGains * gained + kBehind < best;
     if (k > 0 && (progress.stop() || behind)) continue;
-    if (!candidate.has_last_passes) pass(candidate, samples, options, progress);
+    if (candidate.stage != PassStage::kLast) pass(candidate, samples, options, progress);
     if (candidate.enough) return;
     gained = std::max(gained, candidate.gained);
     best = std::max(best, score(candidate));
@@ -184,7 +184,7 @@ void pass_again(FitCandidate& candidate, const std::vector<SurfaceSample>& sampl
   constexpr int kMost = 3;
   if (candidate.gained <= 0.0) return;
   const auto missing = [&] { return options.enough_coverage - candidate.polished.estimate.at_tolerance; };
-  const auto goes_on = [&] { return !candidate.enough && candidate.has_last_passes && !progress.stop(); };
+  const auto goes_on = [&] { return !candidate.enough && candidate.stage == PassStage::kLast && !progress.stop(); };
   for (int k = 0; k < kMost && goes_on() && missing() > 0.0 && missing() <= kLittle; ++k) {
     const double before = missing();
     pass(candidate, samples, options, progress);
@@ -198,11 +198,11 @@ void pass_again(FitCandidate& candidate, const std::vector<SurfaceSample>& sampl
 }
 
 /// The candidates behind the first.
-std::vector<TriedTool> beaten_by_first(const std::vector<FitCandidate>& candidates, const RadiusBounds& bounds) {
-  std::vector<TriedTool> beaten;
+std::vector<RejectedTool> beaten_by_first(const std::vector<FitCandidate>& candidates, const RadiusBounds& bounds) {
+  std::vector<RejectedTool> beaten;
   for (std::size_t k = 1; k < candidates.size(); ++k) {
     const Polished& polished = candidates[k].polished;
-    beaten.push_back(tried_tool(polished.draft.tool, polished.draft.motions.size(), polished.estimate, bounds));
+    beaten.push_back(rejected_tool(polished.draft.tool, polished.draft.motions.size(), polished.estimate, bounds));
   }
   return beaten;
 }
@@ -228,10 +228,9 @@ void code(StepCodec& codec, FitCandidate& candidate) {
   code(codec, candidate.polished);
   code(codec, candidate.trace);
   code(codec, candidate.enough);
-  code(codec, candidate.has_last_passes);
+  code_choice(codec, candidate.stage, static_cast<int>(PassStage::kLast) + 1);
   codec.number(candidate.gained);
-  code(codec, candidate.has_first_passes);
-  codec.number(candidate.failed_close_score);
+  code(codec, candidate.failed_close_score);
 }
 
 void advance(FitCandidate& candidate, const Progress& progress, const char* step,

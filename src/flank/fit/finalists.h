@@ -12,18 +12,24 @@
 
 namespace flank::internal {
 
+/// How far a candidate has come.
+enum class PassStage {
+  kPolished,  ///< none of the last passes
+  kFirst,     ///< the first of them, which are cheap
+  kLast,      ///< all of them
+};
+
 /// A candidate on its way.
 struct FitCandidate {
-  FitDraft start;                      ///< as it came from its quick fit
-  Polished polished;                   ///< as far as it has come
-  std::vector<IterationTrace> trace;   ///< of its passes
-  bool enough = false;                 ///< does what was asked, looked at closely; `polished` is settled then
-  bool has_first_passes = false;       ///< has had the first of the last passes
-  bool has_last_passes = false;        ///< has had the last passes
-  double gained = 0.0;                 ///< of the score, by them
-  double failed_close_score = -1.0;    ///< the score at which a close look found that it is not enough; -1: none did
-  std::optional<Polished> close = {};  ///< what that look saw, if it was in this run
-  std::vector<TriedTool> beaten;       ///< of the winner: the others, as far as they have come
+  FitDraft start;                     ///< as it came from its quick fit
+  Polished polished;                  ///< as far as it has come
+  std::vector<IterationTrace> trace;  ///< of its passes
+  bool enough = false;                ///< does what was asked, looked at closely; `polished` is settled then
+  PassStage stage = PassStage::kPolished;
+  double gained = 0.0;                            ///< of the score, by them
+  std::optional<double> failed_close_score = {};  ///< the score at which a close look found that it is not enough
+  std::optional<Polished> close = {};             ///< what that look saw, if it was in this run
+  std::vector<RejectedTool> beaten;               ///< of the winner: the others, as far as they have come
 };
 
 /// Among the values of a finished step (base/step_codec.h), without its start, the close look, and those that it has beaten.

@@ -17,9 +17,9 @@
 #include "flank/fit/orbit/orbit_fit.h"
 #include "flank/fit/polish.h"
 #include "flank/fit/rank.h"
+#include "flank/fit/rejected.h"
 #include "flank/fit/starts/start_tasks.h"
 #include "flank/fit/starts/upper_end.h"
-#include "flank/fit/tried.h"
 #include "flank/fit/ways.h"
 #include "flank/motion/motion_record.h"
 #include "flank/seed/orbit_chart.h"
@@ -241,7 +241,7 @@ FlankFitResult search_starts(const Target& target, const ToolModel& tool, const 
   FitCandidate best = run_finalists(quick.drafts, samples, options, progress);
   result.before = estimate_coverage(samples, best.start.motions, best.start.tool, options.tolerance_mm, kRankingPoses);
   result.trace = best.trace;
-  result.tried = best.beaten;
+  result.rejected = best.beaten;
   result.closely_measured = best.enough || best.polished.estimate.at_tolerance >= options.least_coverage_for_close_look;
   if (!best.enough && result.closely_measured) look_closely(best, samples, options, progress);
   return make_result(best.polished, options, std::move(result));

@@ -34,10 +34,11 @@ void code(StepCodec& codec, IterationTrace& step) {
   for (double* value : {&step.cost, &step.rms_mm, &step.largest_mm, &step.damping}) codec.number(*value);
 }
 
-void code(StepCodec& codec, TriedTool& tried) {
-  for (double* value : {&tried.slenderness, &tried.axis_length_mm, &tried.largest_radius_mm}) codec.number(*value);
-  code(codec, tried.strips);
-  code(codec, tried.estimate);
+void code(StepCodec& codec, RejectedTool& rejected) {
+  for (double* value : {&rejected.slenderness, &rejected.axis_length_mm, &rejected.largest_radius_mm})
+    codec.number(*value);
+  code(codec, rejected.strips);
+  code(codec, rejected.estimate);
 }
 
 void code(StepCodec& codec, FlankFitResult& fit) {
@@ -51,7 +52,7 @@ void code(StepCodec& codec, FlankFitResult& fit) {
   code(codec, fit.trace);
   code(codec, fit.notes);
   code(codec, fit.candidates);
-  code(codec, fit.tried);
+  code(codec, fit.rejected);
   code_choice(codec, fit.unobstructed_search, 3);
   code(codec, fit.closely_measured);
   codec.require(fit.motions.empty() || fit.tool.axis_length() > 0.0, "expected a tool with its motions");

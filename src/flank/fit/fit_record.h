@@ -9,7 +9,7 @@ namespace flank::internal {
 
 void code(StepCodec& codec, CoverageEstimate& estimate);
 void code(StepCodec& codec, IterationTrace& step);
-void code(StepCodec& codec, TriedTool& tried);
+void code(StepCodec& codec, RejectedTool& rejected);
 void code(StepCodec& codec, FlankFitResult& fit);
 /// Without targets and obstacles.
 void code(StepCodec& codec, FitDraft& draft);

@@ -15,8 +15,8 @@
 #include "flank/fit/fit_record.h"
 #include "flank/fit/polish.h"
 #include "flank/fit/rank.h"
+#include "flank/fit/rejected.h"
 #include "flank/fit/swept_polish.h"
-#include "flank/fit/tried.h"
 
 namespace flank::internal {
 namespace {
@@ -246,8 +246,8 @@ void note_limits(const CoverageEstimate& free, double tolerance_mm, FlankFitResu
                     100.0 * found.at_tolerance, found.gouge_mm));
   } else if (free.at_tolerance > found.at_tolerance + kMore && free.gouge_mm > tolerance_mm) {
     result.notes.push_back(
-        fmt::format("neighbouring faces limit the finished area: without them {:.1f} % (estimate), with gouges of "
-                    "{:.3g} mm in them",
+        fmt::format("neighbouring faces limit the finished area: a motion that ignores them finishes {:.1f} % "
+                    "(estimate) and gouges them by {:.3g} mm",
                     100.0 * free.at_tolerance, free.gouge_mm));
   }
 }
@@ -280,8 +280,8 @@ FlankFitResult best_way(const Target& target, const ToolModel& tool, const Flank
   }
   FlankFitResult result = first;
   if (best != nullptr) {
-    result.tried.clear();
-    add_tried(result, first, options.bounds);
+    result.rejected.clear();
+    add_rejected(result, first, options.bounds);
     result.before = free.before;
     result.trace = free.trace;
     result.candidates = first.candidates + free.candidates;
@@ -294,8 +294,8 @@ FlankFitResult best_way(const Target& target, const ToolModel& tool, const Flank
   }
   for (const Way& way : ways)
     if (&way != best)
-      result.tried.push_back(tried_tool(way.polished.draft.tool, way.polished.draft.motions.size(),
-                                        way.polished.estimate, options.bounds));
+      result.rejected.push_back(rejected_tool(way.polished.draft.tool, way.polished.draft.motions.size(),
+                                              way.polished.estimate, options.bounds));
   note_limits(ways.front().polished.estimate, tolerance, result);
   return result;
 }

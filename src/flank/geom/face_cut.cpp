@@ -185,7 +185,7 @@ std::vector<TrimLoop> joined(std::vector<Chain> chains, int axis) {
   }
   // Such ends have no order.
   if (std::any_of(ends.begin(), ends.end(), [](const End& e) { return !std::isfinite(e.along); }))
-    throw InputError("a trim that is cut has no finite parameters");
+    throw InputError("a trim of the face has parameters that are not finite");
   std::sort(ends.begin(), ends.end(), [](const End& a, const End& b) {
     return std::tie(a.along, a.chain, a.last) < std::tie(b.along, b.chain, b.last);
   });
@@ -266,7 +266,7 @@ Face cut_face(const Face& face, bool along_u, double a, double b) {
   // Without trims the face is all of its surface, and the piece all of the cut one.
   if (face.loops.empty()) return piece;
   piece.loops = cut_loops(cut_loops(face.loops, along_u, a, true), along_u, b, false);
-  if (piece.loops.empty()) throw InputError(face.id + ": nothing of it is left between the parameters");
+  if (piece.loops.empty()) throw InputError(face.id + ": no area of it lies between the two cuts");
   return piece;
 }
 

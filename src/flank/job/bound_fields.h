@@ -31,7 +31,8 @@ void visit_fields(Job& job, Visitor&& visit) {
                   kAny, Spelling::kFlag},
         job.map);
   visit(FieldInfo{"points", "", "",
-                  "Approximate number of points, with --map for each face, whose longest contact is bounded", kPoints},
+                  "Approximate number of points at which the longest contact is bounded; with --map on each face",
+                  kPoints},
         job.points);
   visit(FieldInfo{"gap", "", "", "Stop when the bound is at most this share above the longest contact found", kGap},
         job.gap);

@@ -429,7 +429,7 @@ void visit_fields(Job& job, Visitor&& visit) {
           kRate},
       job.feed_mm_min);
   visit(FieldInfo{"clamp", "", "",
-                  "How the part is clamped, for a set-up that is found. any: any way up; bottom: its Z axis up; bore: "
+                  "How the part is clamped, where --setup is not given. any: any way up; bottom: its Z axis up; bore: "
                   "--copy-axis (default: its Z axis) up and on the axis of the table",
                   kClamp},
         job.clamp);

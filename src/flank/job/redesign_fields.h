@@ -32,7 +32,7 @@ void visit_fields(Job& job, Visitor&& visit) {
                   "(F7=3). Elsewhere: 1"},
         job.weight);
   visit(FieldInfo{"thickness_min", "mm", "",
-                  "The blade gets nowhere thinner than this, and where it is thinner already, no thinner. Default: any",
+                  "Smallest thickness of the new blade; where it was thinner before, it gets no thinner. Default: any",
                   kLength},
         job.thickness_min_mm);
   visit(FieldInfo{"nearest", "", "",

@@ -55,9 +55,8 @@ class Backplotter {
     };
     const bool joint = program_.positions == NcPositions::kJoint;
     if (joint != (machine_.positions == NcPositions::kJoint))
-      refuse_whole(fmt::format("states {}, but machine {} takes {}",
-                               joint ? "joint coordinates" : "tool-centre positions", machine_.name,
-                               joint ? "tool-centre positions" : "joint coordinates"));
+      refuse_whole(fmt::format("states {}, but machine {} takes {}", joint ? "axis positions" : "tool-centre positions",
+                               machine_.name, joint ? "tool-centre positions" : "axis positions"));
     const std::string letters = machine_.rotary_joint(0).name + machine_.rotary_joint(1).name;
     if (program_.positions != NcPositions::kTipVector && program_.rotary != letters)
       refuse_whole(fmt::format("turns the axes {}, but machine {} has {}", program_.rotary, machine_.name, letters));
@@ -130,7 +129,7 @@ class Backplotter {
     // A user's program may ask for any direction: it is refused by its line, not by an assertion in the middle of the
     // chain.
     if (kinematics_.rotary(axis, 0.0).count == 0)
-      refuse(move.line, fmt::format("joint {} cannot tilt the tool into this direction",
+      refuse(move.line, fmt::format("axis {} cannot tilt the tool into this direction",
                                     machine_.joints[kinematics_.rotary_joints()[1]].name));
     const RotaryValues rotary = nearest_rotary(kinematics_, axis, near_rotary(axis));
     return {{tip, axis}, kinematics_.joints(tip, rotary)};
@@ -218,7 +217,7 @@ class Backplotter {
       const double needed = std::abs(end.joints[k] - before_.joints[k]) / std::max(seconds, 1e-12);
       if (needed <= joint.speed * (1.0 + kSpeedSlack)) continue;
       note(result_.speed, {move.line, joint.name,
-                           fmt::format("joint {} would have to run at {:.4g} {}/s, its limit is {:.4g}", joint.name,
+                           fmt::format("axis {} would have to run at {:.4g} {}/s, its limit is {:.4g}", joint.name,
                                        in_units(joint, needed), joint.kind == JointKind::kRotary ? "degrees" : "mm",
                                        in_units(joint, joint.speed))});
     }

@@ -197,7 +197,7 @@ class Choice {
     Unreachable why{.pose = k, .joint = {}, .reason = {}};
     if (solutions.count == 0) {
       why.joint = joint_[1]->name;
-      why.reason = fmt::format("joint {} cannot tilt the tool into this direction at all", joint_[1]->name);
+      why.reason = fmt::format("axis {} cannot tilt the tool into this direction at all", joint_[1]->name);
       return {.joints = {}, .unreachable = why};
     }
     for (const RotaryValues& rotary : solutions.values) {
@@ -212,7 +212,7 @@ class Choice {
       if (violation.empty()) {
         why.joint = joint_[0]->name;
         why.reason = fmt::format(
-            "joints {} and {} cannot continue from the CL point before: one of them would leave its travel, or jump",
+            "axes {} and {} cannot continue from the CL point before: one of them would leave its travel, or jump",
             joint_[0]->name, joint_[1]->name);
         return {.joints = {}, .unreachable = why};
       }
@@ -236,7 +236,7 @@ std::string travel_violation(const Machine& machine, const JointValues& q, std::
     const Joint& joint = machine.joints[k];
     if (q[k] >= joint.low - kTravelSlack && q[k] <= joint.high + kTravelSlack) continue;
     if (name != nullptr) *name = joint.name;
-    return fmt::format("joint {} would stand at {:.3f} {}, its travel is {:g} to {:g}", joint.name,
+    return fmt::format("axis {} would stand at {:.3f} {}, its travel is {:g} to {:g}", joint.name,
                        in_units(joint, q[k]), joint.kind == JointKind::kRotary ? "degrees" : "mm",
                        in_units(joint, joint.low), in_units(joint, joint.high));
   }

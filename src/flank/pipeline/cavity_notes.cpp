@@ -42,8 +42,8 @@ std::string stuck_sentence(const TrochoidJob& job, const LayerCycles& cycles) {
 /// Cycles go forward across the axis; where the sides lead along it they hardly do.
 std::string along_axis_sentence(const PlannedLayer& layer) {
   return fmt::format(
-      "there the sides run {:.0f} degrees off the tool's axis: only {:.0f} % of a step along them goes across the "
-      "axis, where the flank cuts",
+      "there the sides run only {:.0f} degrees off the tool's axis: a step along them moves the flank sideways by only "
+      "{:.0f} % of its length",
       layer.off_axis_rad * kRadian, 100.0 * std::sin(layer.off_axis_rad));
 }
 
@@ -59,8 +59,9 @@ std::string rest_sentence(const TrochoidJob& job, const PlannedLayer& layer) {
     return fmt::format("roughed and finished over {:.1f} % of the length of its sides; the rest is not machined",
                        cleared);
   return fmt::format(
-      "roughed and finished over {:.1f} % of the length of its sides, up to {:.2f} mm before the limit that the wall "
-      "sets: steps nearer to it are too thin to be measured, or exceed {} degrees in the corners",
+      "roughed and finished over {:.1f} % of the length of its sides; the cycles end {:.2f} mm before the place that "
+      "the wall allows, because nearer to it a step is too thin to be measured, or exceeds {} degrees of engagement in "
+      "the corners",
       cleared, before, job.cycles.most_engagement_deg);
 }
 

@@ -8,7 +8,7 @@
 #include "flank/base/stopping.h"
 #include "flank/base/tolerance_budget.h"
 #include "flank/error.h"
-#include "flank/fit/tried.h"
+#include "flank/fit/rejected.h"
 #include "flank/geom/tessellate.h"
 #include "flank/job/check_fields.h"
 #include "flank/obstacle/line_of_sight.h"
@@ -61,18 +61,18 @@ FitSummary fit_summary(const FlankFitResult& fit) {
 
 std::vector<StiffnessStep> stiffness_steps(const FlankFitResult& fit, const FitJob& job, double reachable_share) {
   std::vector<StiffnessStep> steps;
-  for (const TriedTool& tried : fit.tried) {
+  for (const RejectedTool& rejected : fit.rejected) {
     // What is no tool, and a fit that lost its values, say nothing.
-    if (!(tried.slenderness < 1e300) || !(tried.estimate.overcut_mm < 1e300)) continue;
-    StiffnessStep step{.slenderness = tried.slenderness,
-                       .axis_length_mm = tried.axis_length_mm,
-                       .largest_radius_mm = tried.largest_radius_mm,
-                       .strips = tried.strips,
-                       .coverage = tried.estimate.at_tolerance,
+    if (!(rejected.slenderness < 1e300) || !(rejected.estimate.overcut_mm < 1e300)) continue;
+    StiffnessStep step{.slenderness = rejected.slenderness,
+                       .axis_length_mm = rejected.axis_length_mm,
+                       .largest_radius_mm = rejected.largest_radius_mm,
+                       .strips = rejected.strips,
+                       .coverage = rejected.estimate.at_tolerance,
                        .coverage_reachable = {},
-                       .overcut_mm = tried.estimate.overcut_mm,
-                       .gouge_mm = tried.estimate.gouge_mm,
-                       .rms_mm = tried.estimate.rms_mm};
+                       .overcut_mm = rejected.estimate.overcut_mm,
+                       .gouge_mm = rejected.estimate.gouge_mm,
+                       .rms_mm = rejected.estimate.rms_mm};
     // Beside walls the planner counts what is reachable.
     if (job.avoid) {
       step.coverage_reachable = step.coverage;
@@ -83,7 +83,7 @@ std::vector<StiffnessStep> stiffness_steps(const FlankFitResult& fit, const FitJ
   return steps;
 }
 
-StiffnessStep judged_step(const TriedTool& tool, const VerifyReport& verify) {
+StiffnessStep judged_step(const RejectedTool& tool, const VerifyReport& verify) {
   return {.slenderness = tool.slenderness,
           .axis_length_mm = tool.axis_length_mm,
           .largest_radius_mm = tool.largest_radius_mm,
@@ -193,7 +193,7 @@ StiffnessStep judged_rung(const Setup& setup, const FitSearch& search, const Fla
   one.motions = search.motions_of(rung);
   (void)add_strips(*job.tolerance_mm, groups_of_motions(search), one);  // surfaces are for drawings
   const VerifyReport verify = judge_job(setup, job.judge, one.tool, one.path, DepthProof::kSampled);
-  return judged_step(tried_tool(rung.tool, rung.motions.size(), rung.after, search.options.bounds), verify);
+  return judged_step(rejected_tool(rung.tool, rung.motions.size(), rung.after, search.options.bounds), verify);
 }
 
 /// What every step of stiffness costs: the tools that were tried on the way, the chosen one, and, if the job asks for the
@@ -202,8 +202,8 @@ void add_stiffness(const Setup& setup, const FitSearch& search, const Progress& 
   const auto& job = std::get<FitJob>(result.job);
   if (!search.tool.free() || search.fit.motions.empty() || !result.complete) return;
   std::vector<StiffnessStep> steps = stiffness_steps(search.fit, job, result.verify.reachable_share);
-  const TriedTool chosen =
-      tried_tool(search.fit.tool, search.fit.motions.size(), search.fit.after, search.options.bounds);
+  const RejectedTool chosen =
+      rejected_tool(search.fit.tool, search.fit.motions.size(), search.fit.after, search.options.bounds);
   steps.push_back(judged_step(chosen, result.verify));
   steps.back().chosen = true;
   if (job.stiffness_curve) {

@@ -26,7 +26,7 @@ void check_radius(const RadiusRequest& radius);
 [[nodiscard]] std::vector<StiffnessStep> stiffness_steps(const FlankFitResult& fit, const FitJob& job,
                                                          double reachable_share);
 /// What the judge found of a tool.
-[[nodiscard]] StiffnessStep judged_step(const TriedTool& tool, const VerifyReport& verify);
+[[nodiscard]] StiffnessStep judged_step(const RejectedTool& tool, const VerifyReport& verify);
 
 /// What the estimate, a share of the target, should have promised beyond the demand, where the judge proves a little less than that
 /// to be covered, finds nothing else, and a strip more may do it; 0: that is not what is wrong.

@@ -69,13 +69,12 @@ std::string distance_line(const char* what, const DistanceFigure& figure) {
 std::string face_text(const Redesign& redesign, std::size_t k) {
   const FaceTables& face = redesign.faces[k];
   std::string text =
-      fmt::format("  {}: the new surface is {:.4f} mm rms off, {:.4f} mm outside and {:.4f} mm inside at most\n",
+      fmt::format("  {}: the new surface deviates by {:.4f} mm rms, at most {:.4f} mm outwards and {:.4f} mm inwards\n",
                   face.id, face.rms_mm, face.highest_mm, -face.lowest_mm);
   if (k < redesign.gap_mm.size())
     text += fmt::format(
-        "    border    moved by up to {:.4f} mm along the neighbouring faces; up to {:.2g} mm off those that do not "
-        "meet "
-        "the new face\n",
+        "    border    moved by up to {:.4f} mm along the neighbouring faces; gap of up to {:.2g} mm to neighbours "
+        "that do not meet the new face\n",
         redesign.moved_mm[k], redesign.gap_mm[k]);
   text += distance_line("thickness", face.thickness) + distance_line("gap", face.gap);
   text += "    height %   rms mm  largest  thickest before/after   LE radius, kink before/after   TE radius, kink\n";

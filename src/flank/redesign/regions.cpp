@@ -134,7 +134,7 @@ FaceWeights::FaceWeights(const std::vector<WeightRequest>& requests, const FaceB
     const bool edge = request.border == "le" || request.border == "te";
     if (edge && borders.edges_alike)
       throw UsageError("weight", request.border,
-                       "leading and trailing edge are about as sharp; name the neighbouring face instead, as F2=10");
+                       "leading and trailing edge are equally sharp; name the neighbouring face instead, as F2=10");
     if (request.border == "le") points = &borders.leading.points;
     if (request.border == "te") points = &borders.trailing.points;
     std::string known = "le, te, root, tip";

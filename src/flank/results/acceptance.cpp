@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "flank/results/cavity/stock_json.h"
 #include "flank/setup/machined_side.h"
 
 namespace flank::internal {
@@ -239,8 +240,8 @@ void accept_stock(const StockReport& stock, double most_engagement_deg, double t
     // Cycles make the limit; a finishing sweep or a link that engages more has met what they have left.
     if (kind.engagement_deg > most && !kind.cuts_a_slot())
       add_reason(acceptance, Figure::kStock,
-                 fmt::format("stock simulation: a {} has an engagement of {:.2f} degrees > {} + {:.2f}, {}", kind.kind,
-                             kind.engagement_deg, most_engagement_deg, stock.resolution_deg,
+                 fmt::format("stock simulation: {} with an engagement of {:.2f} degrees > {} + {:.2f}, {}",
+                             move_words(kind.kind), kind.engagement_deg, most_engagement_deg, stock.resolution_deg,
                              where ? where(static_cast<std::size_t>(kind.strip), kind.pose)
                                    : fmt::format("pass {}", kind.strip + 1)));
   // A stretch of up to two cells may only be the grid's.
@@ -275,7 +276,7 @@ void accept_cavity(const TrochoidSummary& cavity, Acceptance& acceptance) {
   for (std::size_t k = 0; k < cavity.layers.size(); ++k)
     if (cavity.layers[k].side_deg > cavity.most_engagement_deg + kSpareDeg)
       add_reason(acceptance, Figure::kEngagement,
-                 fmt::format("layer {}: a finishing sweep has an engagement of {:.2f} degrees > {} degrees", k + 1,
+                 fmt::format("layer {}: a finishing pass has an engagement of {:.2f} degrees > {} degrees", k + 1,
                              cavity.layers[k].side_deg, cavity.most_engagement_deg));
   // A layer that ended early has a good engagement in what it has, and leaves the rest.
   for (std::size_t k = 0; k < cavity.layers.size(); ++k)

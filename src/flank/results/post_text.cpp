@@ -57,7 +57,7 @@ std::string post_text(const PostOutcome& o) {
   // Both are bounds, and add up: neither is in the judge's verdict on the planned path.
   text += fmt::format("the control's motion leaves the path by at most {:.2g} mm, rounding adds at most {:.1g} mm\n",
                       o.deviation_mm, o.rounding_mm);
-  text += fmt::format("{:<6} {:>11} {:>11} {:>11} {:>14}\n", "joint", "from", "to", "largest /s", "largest /s^2");
+  text += fmt::format("{:<6} {:>11} {:>11} {:>11} {:>14}\n", "axis", "from", "to", "largest /s", "largest /s^2");
   for (const JointRange& j : o.joints)
     text += fmt::format("{:<2}{:<4} {:>11.3f} {:>11.3f} {:>11.3f} {:>14.2f}\n", j.joint, j.unit, j.low, j.high, j.speed,
                         j.acceleration);

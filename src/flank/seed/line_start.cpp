@@ -49,12 +49,13 @@ LineStartStatus status_of(const Propagation& backward, const Propagation& forwar
 }
 
 std::string message_of(const LineStartReport& report) {
-  char text[256];
-  std::snprintf(text, sizeof text,
-                "the start line was moved %.4g mm along the face in %d steps, from %s to %s; error per step %.2g (%.2g "
-                "before the search), worst %.2g",
-                report.travel_mm, report.backward_steps + report.forward_steps, reason(report.backward),
-                reason(report.forward), report.movability_after, report.movability_before, report.worst_movability);
+  char text[320];
+  std::snprintf(
+      text, sizeof text,
+      "the start line was moved %.4g mm along the face in %d steps, from %s to %s; deviation from gliding along "
+      "the face %.2g (%.2g before the search, %.2g at worst; 0: it glides)",
+      report.travel_mm, report.backward_steps + report.forward_steps, reason(report.backward), reason(report.forward),
+      report.movability_after, report.movability_before, report.worst_movability);
   return text;
 }
 

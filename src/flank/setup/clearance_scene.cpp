@@ -27,7 +27,8 @@ Obstacle as_obstacle(FaceTriangles face, const std::string& name, ObstacleRole r
     notes.push_back(fmt::format("{}: for clearances it is triangulated within {:.3g} mm (included in the bound)", name,
                                 face.deviation_mm));
   if (face.beyond_border)
-    notes.push_back(name + ": its border could not be followed; for clearances its triangles may reach beyond it");
+    notes.push_back(
+        name + ": its border could not be followed; clearances are measured to triangles that may reach beyond it");
   return {name, role, std::move(face.mesh), face.deviation_mm};
 }
 

@@ -18,7 +18,7 @@ void leave(double allowance_mm, TargetGroup& group) {
   const double bend = sharpest_bend(*group.target);
   if (allowance_mm * bend >= 1.0)
     throw UsageError("allowance_mm", fmt::format("{}", allowance_mm),
-                     fmt::format("{} bends towards the tool with a radius of {:.4g} mm; expected less than that",
+                     fmt::format("{} is concave with a radius of {:.4g} mm; expected an allowance below that",
                                  group.faces, 1.0 / bend));
   group.target = offset_target(std::move(group.target), allowance_mm);
 }

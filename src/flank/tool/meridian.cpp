@@ -49,8 +49,8 @@ std::vector<Vec2> spheres(std::span<const Vec2> profile) {
     samples[i] = {profile[i].x() + profile[i].y() * slope, profile[i].y() * std::hypot(1.0, slope)};
     if (i > 0 && !(samples[i].x() > samples[i - 1].x()))
       throw InputError(at_point(i) +
-                       "its normal meets the axis below that of the point before it, so no spheres can be inscribed: "
-                       "the profile must be smooth and bulge with a radius above its distance from the axis");
+                       "the profile bulges too sharply here, or is not smooth: its radius of curvature must exceed its "
+                       "distance from the axis");
   }
   return samples;
 }
@@ -100,8 +100,8 @@ RadialFunction radial_from_meridian(std::span<const Vec2> profile, std::optional
   if (!(length > 0.0 && std::isfinite(length))) throw InputError("meridian profile: the axis length must be > 0");
   const double slack = kCoverShare * length;
   if (all.front().x() - shift > slack || all.back().x() - shift < length - slack)
-    throw InputError("meridian profile: its normals meet the axis from s = " + std::to_string(all.front().x()) +
-                     " to " + std::to_string(all.back().x()) + " mm, which does not cover the axis length of " +
+    throw InputError("meridian profile: it gives radii from s = " + std::to_string(all.front().x()) + " to " +
+                     std::to_string(all.back().x()) + " mm only, not over the axis length of " +
                      std::to_string(length) + " mm");
   std::vector<Vec2> points, samples;  // of the profile that belongs to [0, L], both from s = 0
   for (std::size_t i = 0; i < all.size(); ++i) {

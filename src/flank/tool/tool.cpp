@@ -87,16 +87,16 @@ std::string reason(const RadialFunction& radial, int which, double s) {
     std::snprintf(text.data(), text.size(), format, values...);
   };
   if (!std::isfinite(f.r) || !std::isfinite(f.d1) || !std::isfinite(f.d2))
-    print("the radial function has no finite value at s = %.6g mm: its parameters fit no tool of this length", s);
+    print("the radius is not a finite number at s = %.6g mm: the parameters fit no tool of this length", s);
   else if (which == kRadius)
     print("r = %.6g mm at s = %.6g mm: the radius must be positive", f.r, s);
   else if (which == kConvexity)
     print(
-        "1 - r'^2 - r r'' = %.6g at s = %.6g mm: the spheres are not inscribed, as on the outer side of a torus (1 - "
-        "r'^2 - r r'' > 0 is required)",
+        "the profile bulges too sharply: 1 - r'^2 - r r'' = %.6g at s = %.6g mm must be > 0 (its radius of curvature "
+        "must exceed its distance from the axis)",
         1.0 - f.d1 * f.d1 - f.r * f.d2, s);
   else
-    print("r' = %.6g at s = %.6g mm: the inscribed spheres do not touch the meridian (|r'| < 1 is required)", f.d1, s);
+    print("the profile is too steep: r' = %.6g at s = %.6g mm (|r'| < 1 is required)", f.d1, s);
   return text.data();
 }
 

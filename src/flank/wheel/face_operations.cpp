@@ -63,7 +63,7 @@ WheelOperation on_faces(WheelWork& work, const std::string& id, const std::strin
                         bool only_rest) {
   WheelOperation operation{.id = id, .kind = kind, .folder = "", .faces = faces_of(work.sector.blades, which)};
   if (!work.tool || operation.faces.empty()) {
-    operation.problem = work.tool ? "no blade has such a face" : "there is no tool: the sides have none";
+    operation.problem = work.tool ? "no blade has such a face" : "no tool: none was found for the sides of the blades";
     return operation;
   }
   std::vector<WheelBlade> blades = work.sector.blades;

@@ -92,7 +92,7 @@ FloorChannel floor_channel(WheelWork& work, const SectorChannel& channel) {
 WheelOperation floor_operation(WheelWork& work, const Progress&) {
   WheelOperation operation{.id = "30", .kind = "floor", .folder = "", .faces = work.roles.hub};
   if (!work.tool) {
-    operation.problem = "no tool, because no tool was found for the sides";
+    operation.problem = "no tool: none was found for the sides of the blades";
     return operation;
   }
   const std::string decides =

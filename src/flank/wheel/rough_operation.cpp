@@ -130,8 +130,8 @@ Path rough_path(WheelWork& work, const RadialFunction& radial) {
 WheelOperation rough_operation(WheelWork& work) {
   WheelOperation operation{.id = "10", .kind = "rough", .folder = "", .faces = work.roles.hub};
   if (!work.tool || work.roles.outline.empty()) {
-    operation.problem =
-        work.tool ? "no tips are known, so no outline of a blank" : "there is no tool: the sides have none";
+    operation.problem = work.tool ? "the tips of the blades are not known, so the blank has no outline"
+                                  : "no tool: none was found for the sides of the blades";
     return operation;
   }
   operation.tool = choose_tool(work);

@@ -115,8 +115,9 @@ WheelResult run_wheel(const WheelJob& job, const Progress& progress) {
   WheelWork work{job,   result.roles,      sector,           part,
                  blank, FaceTargets(part), std::move(faces), finished_operations(plan)};
   if (result.roles.count != found.count)
-    work.notes.push_back(fmt::format("the hub goes all round, with {} of {} main blades: the part is planned as it is",
-                                     found.mains(), found.count));
+    work.notes.push_back(
+        fmt::format("the hub is a full turn but carries only {} of {} main blades: the part is planned as it is",
+                    found.mains(), found.count));
   const auto run = [&](WheelOperation operation) {
     result.operations.push_back(std::move(operation));
     std::stable_sort(result.operations.begin(), result.operations.end(),

@@ -224,7 +224,7 @@ std::string account(const SewnFaces& sides, const Sewn& sewn, std::size_t open) 
     return fmt::format("the file has loose faces: they were sewn to {} solid{} and {} open sheet{}, {}", sides.solids,
                        sides.solids == 1 ? "" : "s", open, open == 1 ? "" : "s", gap);
   return fmt::format(
-      "the file has loose faces that do not form a closed solid: {} open sheet{} when sewn, {}, {} borders free; the "
+      "the file has loose faces that do not form a closed solid: {} open sheet{} when sewn, {}, {} free edges; the "
       "side of "
       "the material is not known",
       open, open == 1 ? "" : "s", gap, sewn.free_edges);

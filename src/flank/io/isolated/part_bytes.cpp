@@ -57,7 +57,7 @@ class In {
   }
   [[nodiscard]] bool empty() const { return bytes_.empty(); }
   static void require(bool right) {
-    if (!right) throw InternalError("the values of a part that was read do not fit together");
+    if (!right) throw InternalError("the answer of the CAD reader contradicts itself");
   }
 
  private:

@@ -119,8 +119,8 @@ void place_joints(const TomlTable& file, const Chain& chain, Machine& machine) {
   if (chain.joints.size() != kJointCount || count(JointKind::kRotary) != 2)
     file.refuse(
         chain.tables.empty() || file.has("head") ? "head" : "table",
-        fmt::format("the chain has {} linear and {} rotary joints; expected [[table]] and [[head]] with the three "
-                    "linear joints X, Y, Z and two of A, B, C",
+        fmt::format("the chain has {} linear and {} rotary axes; expected [[table]] and [[head]] with the three "
+                    "linear axes X, Y, Z and two of A, B, C",
                     count(JointKind::kLinear), count(JointKind::kRotary)));
   for (std::size_t k = 0; k < kJointCount; ++k) {
     machine.joints[k] = chain.joints[k];
@@ -138,10 +138,10 @@ void place_rotary(const TomlTable& control, const Chain& chain, Machine& machine
   const Joint &near_work = machine.joints[rotary[0]], &near_tool = machine.joints[rotary[1]];
   // Parallel axes, or a second one along the spindle, reach a cone of directions at most: no program of ours fits it.
   if (near_work.direction.cross(near_tool.direction).norm() < kLeastSine)
-    chain.tables[rotary[1]].refuse("direction", "the two rotary joints are parallel; expected two directions");
+    chain.tables[rotary[1]].refuse("direction", "the two rotary axes are parallel; expected two directions");
   if (near_tool.direction.cross(machine.tool_axis).norm() < kLeastSine)
     chain.tables[rotary[1]].refuse(
-        "direction", "this joint turns the tool about itself; its direction must not be that of the spindle");
+        "direction", "this axis turns the tool about itself; its direction must not be that of the spindle");
   // Inverse kinematics solve three equations in the linear joints (Kinematics::joints).
   Eigen::Matrix3d directions;
   for (int k = 0; k < 3; ++k) directions.col(k) = machine.linear_joint(static_cast<std::size_t>(k)).direction;
@@ -235,7 +235,7 @@ void read_meaning(const TomlTable& table, Machine& machine) {
   const NcLanguageRow& language = row_of(machine.dialect.language);
   const std::string title(language.title);
   if (machine.positions == NcPositions::kJoint && machine.join != NcJoin::kAxes)
-    table.refuse("join", "joint coordinates must be joined by \"axes\"");
+    table.refuse("join", "axis positions must be joined by \"axes\"");
   if (!language.great_circle && machine.join != NcJoin::kAxes)
     table.refuse("join", title + " can join blocks by \"axes\" only");
   if (!language.vectors && machine.positions == NcPositions::kTipVector)

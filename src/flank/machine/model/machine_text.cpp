@@ -43,7 +43,7 @@ Json triple(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 std::string machine_to_text(const Machine& machine) {
   std::string text = fmt::format("{}: {}, {}\n", machine.name, machine.nesting(), machine.description);
-  text += fmt::format("{:<6} {:<6} {:<7} {:>24} {:<24} {:>9} {:>12}\n", "joint", "moves", "kind", "direction",
+  text += fmt::format("{:<6} {:<6} {:<7} {:>24} {:<24} {:>9} {:>12}\n", "axis", "moves", "kind", "direction",
                       "  travel", "speed /s", "acc. /s^2");
   for (const Joint& j : machine.joints) {
     const Vec3& d = j.direction;
@@ -51,7 +51,7 @@ std::string machine_to_text(const Machine& machine) {
                         j.kind == JointKind::kRotary ? "rotary" : "linear",
                         // Adding zero turns -0 into 0.
                         fmt::format("({:.3g}, {:.3g}, {:.3g})", d.x() + 0.0, d.y() + 0.0, d.z() + 0.0), travel_text(j),
-                        in_units(j, j.speed), in_units(j, j.acceleration), j.reversed ? "  positive: link" : "");
+                        in_units(j, j.speed), in_units(j, j.acceleration), j.reversed ? "  reversed" : "");
   }
   text += fmt::format("control {}: positions {}, join {}, feed {}, rotary axes {}{}\n",
                       nc_language_name(machine.dialect.language), positions_word(machine.positions),

@@ -66,10 +66,14 @@ std::string one_word(std::string_view text) {
 }  // namespace
 
 std::string safe_comment(std::string_view name) {
-  constexpr std::string_view kSpecial = "();%~$\"";
+  constexpr std::string_view kSpecial = "%~$\"";
   std::string out(name.substr(0, kLongestNcComment));
-  for (char& c : out)
+  for (char& c : out) {
+    if (c == '(') c = '[';
+    if (c == ')') c = ']';
+    if (c == ';') c = ',';
     if (c < ' ' || c > '~' || kSpecial.find(c) != std::string_view::npos) c = '_';
+  }
   // Readers trim comments: the name that is read back is then the one that was written.
   while (out.ends_with(' ')) out.pop_back();
   return out;

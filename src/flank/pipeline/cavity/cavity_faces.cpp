@@ -53,7 +53,7 @@ std::vector<std::pair<double, int>> nearest_first(const Part& part, const Vec3& 
   return out;
 }
 
-/// The nearest other face of the part that faces `left`; empty: none does. Faces much smaller than it are no walls.
+/// The nearest other face of the part opposite `left`; empty: none is. Faces much smaller than it are no walls.
 std::string face_across(const Part& part, const Target& left) {
   constexpr double kLeastArea = 0.2;
   Vec3 middle = Vec3::Zero();
@@ -83,10 +83,10 @@ std::string accepted_across(const TrochoidJob& job, const Part& part) {
   const bool of_solid = left.front().of_solid;
   for (const int side : {+1, -1}) {
     const std::string across = face_across(part, *make_target(left, side));
-    if (!across.empty()) return across + " faces " + job.left;
+    if (!across.empty()) return across + " lies opposite " + job.left;
     if (of_solid) break;
   }
-  return "no face of the part that is large enough faces " + job.left +
+  return "no large enough face of the part lies opposite " + job.left +
          "; a side may be several faces that are joined, like F9,F10";
 }
 

@@ -180,7 +180,8 @@ Verification run_verify(const VerifyJob& request) {
   internal::check_fields(request);
   if (request.nc.file) return internal::judge_program(request);
   if (!request.more_folders.empty())
-    throw UsageError("more_folders", "needs a program by `nc`; of paths one folder is checked at a time");
+    throw UsageError("more_folders",
+                     "several folders need a program by `nc`; without one, one folder is checked at a time");
   if (request.folder.empty()) throw UsageError("folder", "give a result folder, or an NC program by `nc`");
   return internal::judge_folder(request);
 }

@@ -48,8 +48,8 @@ std::string roughing_text(const JudgedRoughing& roughing) {
                                  cuts.gouge_mm, cuts.gouge_bound_mm);
   for (const StockKind& kind : stock.kinds)
     text += fmt::format(
-        "; engagement up to {:.1f} degrees (+-{:.1f}, pass {}), {:.0f} of {:.0f} mm3 removed in one sector on {:.0f} "
-        "mm",
+        "; engagement up to {:.1f} degrees (+-{:.1f}, pass {}), {:.0f} of {:.0f} mm3 removed in one sector along "
+        "{:.0f} mm of path",
         kind.engagement_deg, stock.resolution_deg, kind.strip + 1, kind.volume_mm3, stock.before_mm3, kind.way_mm);
   return text;
 }

@@ -93,7 +93,7 @@ class SetUpCheck {
     if (origin && (*origin - wanted).norm() <= kSameMm) return;
     add(Figure::kSetup,
         fmt::format("its header contradicts itself: the work offset HOLDS {}, but {}X{} Y{} Z{}", header.origin,
-                    joint ? "a program in joint coordinates needs " : "SETUP puts the part's origin at ", wanted.x(),
+                    joint ? "a program of axis positions needs " : "SETUP puts the part's origin at ", wanted.x(),
                     wanted.y(), wanted.z()));
   }
 

@@ -10,7 +10,7 @@
 #include "flank/base/journal.h"
 #include "flank/fit/fit_record.h"
 #include "flank/fit/rank.h"
-#include "flank/fit/tried.h"
+#include "flank/fit/rejected.h"
 #include "flank/pipeline/search/out_of_reach.h"
 #include "flank/pipeline/search/stiff_fit.h"
 #include "flank/pipeline/search/strip_gain.h"
@@ -22,7 +22,7 @@ namespace {
 void keep_better(FlankFitResult& best, FlankFitResult&& other, const FlankFitOptions& options) {
   if (other.motions.empty()) return;
   if (best.motions.empty() || is_better(other.after, best.after, options)) std::swap(best, other);
-  add_tried(best, other, options.bounds);
+  add_rejected(best, other, options.bounds);
 }
 
 /// Of the face, before the last passes, which rarely gain more than a tenth: a strip more is tried instead.
@@ -277,7 +277,7 @@ class TogetherFit {
     }
     fits.fit = fit_as_found(tasks, large.fit.tool, tool_, options_);
     fits.fit.notes = large.fit.notes;
-    fits.fit.tried = large.fit.tried;
+    fits.fit.rejected = large.fit.rejected;
     fits.fit.candidates = large.fit.candidates;
     return fits;
   }

@@ -15,8 +15,8 @@
 #include "flank/fit/fit_record.h"
 #include "flank/fit/polish.h"
 #include "flank/fit/rank.h"
+#include "flank/fit/rejected.h"
 #include "flank/fit/swept_pass.h"
-#include "flank/fit/tried.h"
 
 namespace flank::internal {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "flank/base/assert.h"
 #include "flank/fit/rank.h"
-#include "flank/fit/tried.h"
+#include "flank/fit/rejected.h"
 #include "flank/fit/ways.h"
 
 namespace flank::internal {
@@ -56,11 +56,11 @@ FlankFitResult stiffened(const Target& target, const ToolModel& tool, const Flan
     const double reached = slenderness_of(stiffer.tool, options.bounds);
     if (reached <= kSoft * middle && !is_better(best.after, stiffer.after, options)) {
       high = reached;
-      add_tried(stiffer, best, options.bounds);
+      add_rejected(stiffer, best, options.bounds);
       best = std::move(stiffer);
       low = std::min(low, high);
     } else {
-      add_tried(best, stiffer, options.bounds);
+      add_rejected(best, stiffer, options.bounds);
       low = middle;
     }
   }
@@ -169,9 +169,9 @@ void note_slenderness(const ToolModel& tool, const FlankFitOptions& options, Fla
   const double found = slenderness_of(fit.tool, options.bounds), asked = options.bounds.slenderest;
   if (!(found > (1.0 + kRounding) * asked)) return;
   double most = 0.0;
-  for (const TriedTool& tried : fit.tried)
-    if (tried.slenderness <= asked && is_clean(tried.estimate, options.tolerance_mm))
-      most = std::max(most, tried.estimate.at_tolerance);
+  for (const RejectedTool& rejected : fit.rejected)
+    if (rejected.slenderness <= asked && is_clean(rejected.estimate, options.tolerance_mm))
+      most = std::max(most, rejected.estimate.at_tolerance);
   const std::string covers = fmt::format("{:.1f} % of the face", 100.0 * fit.after.at_tolerance);
   fit.notes.push_back(most > 0.0 ? fmt::format("L:D {:.2f} exceeds --slenderness-max {:.1f}: this tool finishes {}, "
                                                "the best stiffer one tried {:.1f} %",
@@ -193,12 +193,12 @@ FlankFitResult relax_stiffness_bounds(const Target& target, const ToolModel& too
   // What enters other faces is no reason to take a thinner tool.
   const bool needed = !open.motions.empty() && is_better(open.after, within.after, lifted);
   if (!needed) {
-    add_tried(within, open, options.bounds);
+    add_rejected(within, open, options.bounds);
     note_slenderness(tool, options, within);
     return within;
   }
   FlankFitResult result = stiffened(target, tool, lifted, options.bounds.slenderest, open, progress.part(0.6, 1.0));
-  add_tried(result, within, options.bounds);
+  add_rejected(result, within, options.bounds);
   result.notes.push_back(
       fmt::format("L:D {:.1f} is the lowest found that meets the request: a tool limited to {:.1f} finishes {:.1f} % "
                   "of the face, this one {:.1f} %",

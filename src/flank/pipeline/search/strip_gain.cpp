@@ -17,7 +17,7 @@ bool StripGain::goes_on(const FlankFitResult& best) {
   };
   const double covered = covers(best.after);
   double promised = covered;
-  for (const TriedTool& tried : best.tried) promised = std::max(promised, covers(tried.estimate));
+  for (const RejectedTool& rejected : best.rejected) promised = std::max(promised, covers(rejected.estimate));
   const auto gains_on = [&](double now, double before) {
     return now > before + std::min(kGain, kGainOfRest * (1.0 - before));
   };

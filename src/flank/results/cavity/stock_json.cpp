@@ -2,11 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
 
 namespace flank::internal {
 
 using Json = nlohmann::ordered_json;
+
+std::string move_words(const std::string& kind) {
+  constexpr std::array<std::array<const char*, 2>, 3> kWords{
+      {{"front", "cutting move"}, {"back", "return move"}, {"side", "finishing pass"}}};
+  for (const auto& [key, words] : kWords)
+    if (kind == key) return words;
+  return kind;
+}
 
 // What the replay of the program has found, kind of move by kind of move: fronts, backs, entries and sides.
 std::string stock_text(const StockReport& stock) {
@@ -16,9 +25,10 @@ std::string stock_text(const StockReport& stock) {
       stock.before_mm3 - stock.left_mm3, stock.before_mm3, stock.uncut_mm, stock.entered_mm, stock.cell_mm,
       stock.resolution_deg);
   for (const StockKind& kind : stock.kinds)
-    text += fmt::format("              {:<6} engagement at most {:.2f} degrees, removed {:.1f} mm3 on {:.1f} mm{}\n",
-                        kind.kind, kind.engagement_deg, kind.volume_mm3, kind.way_mm,
-                        kind.cuts_a_slot() ? " (a slot: no limit)" : "");
+    text += fmt::format(
+        "              {:<14} engagement at most {:.2f} degrees, removed {:.1f} mm3 along {:.1f} mm of path{}\n",
+        move_words(kind.kind), kind.engagement_deg, kind.volume_mm3, kind.way_mm,
+        kind.cuts_a_slot() ? " (a slot: no limit)" : "");
   return text;
 }
 

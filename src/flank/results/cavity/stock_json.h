@@ -8,6 +8,8 @@
 
 namespace flank::internal {
 
+/// What a kind of move (StockKind::kind) is called in messages: "cutting move".
+[[nodiscard]] std::string move_words(const std::string& kind);
 [[nodiscard]] std::string stock_text(const StockReport& stock);
 [[nodiscard]] nlohmann::ordered_json stock_to_json(const StockReport& stock);
 /// Throws nlohmann::json::exception for a field that is missing or of the wrong type.

@@ -248,7 +248,7 @@ constexpr int kFirstOfExtended = 7, kLastOffset = 9;  // G59.1 to G59.3 follow G
 /// What LinuxCNC cannot say, as a user's error: another dialect, or another entry in the machine's file, mends it.
 void refuse_unsayable(const NcProgram& program, const NcDialect& dialect) {
   if (program.positions == NcPositions::kTipVector)
-    throw UsageError("dialect", "linuxcnc", "has no tool vectors; expected rotary axes or joint coordinates");
+    throw UsageError("dialect", "linuxcnc", "has no tool vectors; expected rotary axes or axis positions");
   if (program.join == NcJoin::kGreatCircle)
     throw UsageError("dialect", "linuxcnc", "joins blocks linearly in its axes, never on a great circle");
   if (program.header.work_offset > kLastOffset)

@@ -50,7 +50,7 @@ void check_program(const NcProgram& program) {
   if (program.header.tool.number < 0 || program.header.tool.number > kLargestNcValue || program.header.work_offset < 1)
     throw UsageError("program: the tool's number must be from 0 to 1000000, that of the work offset at least 1");
   if (program.positions == NcPositions::kJoint && program.join == NcJoin::kGreatCircle)
-    throw UsageError("program: joint coordinates are joined linearly, not on a great circle");
+    throw UsageError("program: axis positions are joined linearly, not on a great circle");
   for (std::size_t i = 0; i < program.moves.size(); ++i) {
     check_move(program, program.moves[i]);
     check_rapid(program, i);

@@ -289,7 +289,7 @@ void ProgramBuilder::check_feed_move() {
   // that compensates the length would shift by it.
   if (length_ && *length_ != tool_centre_)
     place_.refuse(tool_centre_ ? "a feed move without the tool's length (G43 H)"
-                               : "joint coordinates under length compensation; expected them without (G49)");
+                               : "axis positions under length compensation; expected them without (G49)");
   if (const std::string what = unknown(); !what.empty()) place_.refuse("a feed move before " + what + " is stated");
   if (!cut_) return;  // modes may change as they like until something is cut
   if (program_.feed_mode != mode_) place_.refuse("the feed mode changes between feed moves");

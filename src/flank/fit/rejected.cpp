@@ -1,4 +1,4 @@
-#include "flank/fit/tried.h"
+#include "flank/fit/rejected.h"
 
 #include <algorithm>
 #include <limits>
@@ -20,23 +20,23 @@ double slenderness_of(const RadialFunction& radial, const RadiusBounds& bounds) 
   return stiffness(tool).slenderness;
 }
 
-TriedTool tried_tool(const RadialFunction& radial, std::size_t strips, const CoverageEstimate& estimate,
-                     const RadiusBounds& bounds) {
+RejectedTool rejected_tool(const RadialFunction& radial, std::size_t strips, const CoverageEstimate& estimate,
+                           const RadiusBounds& bounds) {
   constexpr int kPlaces = 100;
-  TriedTool tried;
-  tried.slenderness = slenderness_of(radial, bounds);
-  tried.axis_length_mm = radial.axis_length();
+  RejectedTool rejected;
+  rejected.slenderness = slenderness_of(radial, bounds);
+  rejected.axis_length_mm = radial.axis_length();
   for (int j = 0; j <= kPlaces; ++j)
-    tried.largest_radius_mm = std::max(tried.largest_radius_mm, radial.at(radial.axis_length() * j / kPlaces).r);
-  tried.strips = static_cast<int>(strips);
-  tried.estimate = estimate;
-  return tried;
+    rejected.largest_radius_mm = std::max(rejected.largest_radius_mm, radial.at(radial.axis_length() * j / kPlaces).r);
+  rejected.strips = static_cast<int>(strips);
+  rejected.estimate = estimate;
+  return rejected;
 }
 
-void add_tried(FlankFitResult& chosen, const FlankFitResult& beaten, const RadiusBounds& bounds) {
-  chosen.tried.insert(chosen.tried.end(), beaten.tried.begin(), beaten.tried.end());
+void add_rejected(FlankFitResult& chosen, const FlankFitResult& beaten, const RadiusBounds& bounds) {
+  chosen.rejected.insert(chosen.rejected.end(), beaten.rejected.begin(), beaten.rejected.end());
   if (!beaten.motions.empty())
-    chosen.tried.push_back(tried_tool(beaten.tool, beaten.motions.size(), beaten.after, bounds));
+    chosen.rejected.push_back(rejected_tool(beaten.tool, beaten.motions.size(), beaten.after, bounds));
 }
 
 void tell_found(const Progress& progress, const CoverageEstimate& estimate, double tolerance_mm) {
