@@ -189,8 +189,8 @@ SolidModel rotor37_blisk(int blades) {
   hub.profile.assign(outline.begin() + kHubFirst, outline.begin() + kHubLast + 1);
   hub.bore_radius_mm = kBoreRadiusMm;
   hub.from_rad = kSectorFromRad;
-  hub.to_rad = blades == kRotor37Blades ? hub.from_rad + 360.0 * kDegreesToRad
-                                        : kSectorToRad + (blades - 2) * kRotor37PitchRad;
+  hub.to_rad =
+      blades == kRotor37Blades ? hub.from_rad + 360.0 * kDegreesToRad : kSectorToRad + (blades - 2) * kRotor37PitchRad;
   const std::vector<Face> blade = rotor37_faces(Rotor37Root::kInsideTheHub);
   std::vector<std::vector<Face>> all;
   for (int k = 0; k < blades; ++k) all.push_back(turned(blade, k * kRotor37PitchRad));

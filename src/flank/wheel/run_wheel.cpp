@@ -110,8 +110,8 @@ WheelResult run_wheel(const WheelJob& job, const Progress& progress) {
   make_folder(job.folder);
   const std::string plan = (fs::path(job.folder) / "plan.json").string();
   const WheelBlank blank = make_blank(job, part, result);
-  WheelWork work{job,   result.roles,      sector,            part,
-                 blank, FaceTargets(part), wheel_faces(part), finished_operations(plan)};
+  WheelWork work{
+      job, result.roles, sector, part, blank, FaceTargets(part), wheel_faces(part), finished_operations(plan)};
   const auto run = [&](WheelOperation operation) {
     result.operations.push_back(std::move(operation));
     std::stable_sort(result.operations.begin(), result.operations.end(),

@@ -69,9 +69,9 @@ struct WheelResult {
   std::vector<WheelOperation> operations;
   std::vector<RoleFigures> figures;
   std::vector<std::string> notes;
-  std::vector<RestPlace> rest;         ///< largest first
+  std::vector<RestPlace> rest;        ///< largest first
   std::vector<MissingBlade> lacking;  ///< what the wheel has and the part has not
-  std::string blank;            ///< "turned", or the file that it is from; empty: nothing is roughed
+  std::string blank;                  ///< "turned", or the file that it is from; empty: nothing is roughed
   double most_engagement_deg = 180.0;
   std::optional<JudgedRoughing> roughing;
   std::optional<Result> whole;  ///< all copies of all finishing operations, judged on all flow faces
