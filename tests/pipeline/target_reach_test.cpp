@@ -53,7 +53,7 @@ TriangleMesh box_without_floor() {
 }
 
 TEST(TargetReach, WhatABodyThatStandsThereCoversIsNotAccessible) {
-  Setup setup;
+  flank::internal::Setup setup;
   setup.part.faces = {test::plane_face("F1", 40.0, 40.0)};
   setup.targets = {0};
   setup.tolerance_mm = 0.01;

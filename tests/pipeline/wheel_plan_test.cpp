@@ -108,7 +108,7 @@ TEST_F(WheelPlanFile, ABladeThatThePartLacksStandsThereTurned) {
   write_plan(text);
   const WheelPlan plan = read_wheel_plan(root_.string()).value();
   ASSERT_EQ(plan.lacking.size(), 1U);
-  Setup setup;
+  flank::internal::Setup setup;
   setup.part.faces = {test::plane_face("F1", 4.0, 2.0)};
   stand_lacking(plan, setup);
   ASSERT_EQ(setup.standing.size(), 1U);
