@@ -183,18 +183,15 @@ std::vector<Face> rotor37_faces(Rotor37Root root) {
 
 SolidModel rotor37_blade() { return sew_solid("rotor37", rotor37_faces()); }
 
-SolidModel rotor37_blisk(int blades) {
+SolidModel rotor37_blisk() {
   const std::vector<Vec2> outline = rotor37_hub();
   HubSector hub;
   hub.profile.assign(outline.begin() + kHubFirst, outline.begin() + kHubLast + 1);
   hub.bore_radius_mm = kBoreRadiusMm;
   hub.from_rad = kSectorFromRad;
-  hub.to_rad =
-      blades == kRotor37Blades ? hub.from_rad + 360.0 * kDegreesToRad : kSectorToRad + (blades - 2) * kRotor37PitchRad;
+  hub.to_rad = kSectorToRad;
   const std::vector<Face> blade = rotor37_faces(Rotor37Root::kInsideTheHub);
-  std::vector<std::vector<Face>> all;
-  for (int k = 0; k < blades; ++k) all.push_back(turned(blade, k * kRotor37PitchRad));
-  return fuse_blisk("rotor37-blisk", hub, all);
+  return fuse_blisk("rotor37-blisk", hub, {blade, turned(blade, kRotor37PitchRad)});
 }
 
 }  // namespace flank::internal

@@ -138,14 +138,14 @@ Hub hub_solid(const HubSector& hub) {
                     front = BRepBuilderAPI_MakeEdge(front_in, front_out);
   const TopoDS_Wire wire = BRepBuilderAPI_MakeWire(skin, back, bore, front);
   BRepPrimAPI_MakeRevol turned(BRepBuilderAPI_MakeFace(wire, Standard_True),
-                               gp_Ax1(gp_Pnt(0.0, 0.0, 0.0), gp_Dir(1.0, 0.0, 0.0)), hub.turn_rad());
+                               gp_Ax1(gp_Pnt(0.0, 0.0, 0.0), gp_Dir(1.0, 0.0, 0.0)), hub.to_rad - hub.from_rad);
   const auto swept = [&](const TopoDS_Edge& edge) { return TopoDS::Face(turned.Generated(edge).First()); };
   const TopoDS_Shape solid = turned.Shape();
   return {volume_of(solid) < 0.0 ? solid.Reversed() : solid,
           swept(skin),
           swept(front),
-          hub.is_whole() ? TopoDS_Face() : TopoDS::Face(turned.FirstShape()),
-          hub.is_whole() ? TopoDS_Face() : TopoDS::Face(turned.LastShape()),
+          TopoDS::Face(turned.FirstShape()),
+          TopoDS::Face(turned.LastShape()),
           swept(back),
           swept(bore)};
 }
@@ -154,9 +154,7 @@ Hub hub_solid(const HubSector& hub) {
 TopoDS_Solid fused(const std::string& name, const Hub& hub, const std::vector<std::vector<TopoDS_Face>>& blades) {
   TopTools_ListOfShape arguments, tools;
   arguments.Append(hub.solid);
-  std::vector<TopoDS_Face> order{hub.skin, hub.front}, tips;
-  if (!hub.from.IsNull()) order.insert(order.end(), {hub.from, hub.to});
-  order.push_back(hub.back);
+  std::vector<TopoDS_Face> order{hub.skin, hub.front, hub.from, hub.to, hub.back}, tips;
   for (const std::vector<TopoDS_Face>& blade : blades) {
     tools.Append(sewn(name, blade));
     for (const std::size_t k : {1u, 2u, 3u, 0u}) order.push_back(blade[k]);
