@@ -8,14 +8,10 @@
 namespace flank::internal {
 namespace {
 
-constexpr double kCellMm = 0.5;      ///< of the meridian
-constexpr double kSideCellMm = 1.0;  ///< of a side's line
-constexpr double kNearFloor = 0.08;  ///< of a side's size: samples so near the floor may say where it stands
-constexpr double kStandsSpacings =
-    1.5;  ///< of samples: the lowest ones of a place where it stands are no higher than most by more
+constexpr double kCellMm = 0.5;         ///< of the meridian
+constexpr double kSideCellMm = 1.0;     ///< of a side's line
+constexpr double kNearFloor = 0.08;     ///< of a side's size: samples so near the floor say where it stands
 constexpr double kSampleShare = 0.004;  ///< of the size of a face: between its samples
-
-double spacing_on(const Target& face) { return std::max(0.2, kSampleShare * face.diagonal()); }
 
 /// The two coordinates rise together, or one falls: along which of the diagonals the meridian runs.
 double sign_of(const std::vector<Vec2>& all) {
@@ -30,20 +26,6 @@ struct Cell {
   Vec2 sum = Vec2::Zero();
   int count = 0;
 };
-
-/// The lowest place of a side over a piece of the floor.
-struct Low {
-  double height, way, angle;
-};
-
-double median_height(const std::map<int, Low>& cells) {
-  std::vector<double> heights;
-  for (const auto& [key, low] : cells) heights.push_back(low.height);
-  if (heights.empty()) return 0.0;
-  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-  std::nth_element(heights.begin(), middle, heights.end());
-  return *middle;
-}
 
 double value_at(const std::vector<double>& at, const std::vector<double>& values, double x) {
   const auto next = std::upper_bound(at.begin(), at.end(), x);
@@ -61,7 +43,7 @@ FloorMap::FloorMap(const std::vector<const Target*>& floor, const WheelAxis& axi
   zero_ = axis.angle(axis.point + out_);
   std::vector<Vec2> all;
   for (const Target* target : floor)
-    for (const SurfaceSample& s : target->samples(spacing_on(*target)))
+    for (const SurfaceSample& s : target->samples(std::max(0.2, kSampleShare * target->diagonal())))
       all.emplace_back(axis.along(s.point), axis.radius(s.point));
   if (all.size() < 2) return;
   const double sign = sign_of(all);
@@ -108,11 +90,12 @@ Vec3 FloorMap::place(double way, double angle) const {
 
 SideLine::SideLine(const std::vector<const Target*>& side, const std::vector<const Target*>& floor,
                    const FloorMap& map) {
+  struct Low {
+    double height, way, angle;
+  };
   std::map<int, Low> cells;
-  double spacing = 0.0;
-  for (const Target* target : side) {
-    spacing = std::max(spacing, spacing_on(*target));
-    for (const SurfaceSample& s : target->samples(spacing_on(*target))) {
+  for (const Target* target : side)
+    for (const SurfaceSample& s : target->samples(std::max(0.2, kSampleShare * target->diagonal()))) {
       Footpoint foot;
       double least = kNearFloor * target->diagonal();
       for (const Target* one : floor)
@@ -125,11 +108,7 @@ SideLine::SideLine(const std::vector<const Target*>& side, const std::vector<con
       const auto [cell, fresh] = cells.try_emplace(static_cast<int>(std::floor(way / kSideCellMm)), low);
       if (!fresh && low.height < cell->second.height) cell->second = low;
     }
-  }
-  const double most = median_height(cells) + kStandsSpacings * spacing;
   for (const auto& [key, low] : cells) {
-    // Where the floor rises, places up the side's end stand over floor that lies beyond its foot.
-    if (low.height > most) continue;
     double angle = low.angle;
     if (!angles_.empty())
       angle += 2.0 * std::numbers::pi * std::round((angles_.back() - angle) / (2.0 * std::numbers::pi));
