@@ -11,6 +11,7 @@
 #include "flank/pipeline/folder/judge_roughing.h"
 #include "flank/pipeline/program/operation_words.h"
 #include "temporary_folder.h"
+#include "verify/faces.h"
 
 namespace flank::internal {
 namespace {
@@ -99,6 +100,25 @@ TEST_F(WheelPlanFile, APathThatIsNotThatOfTheOperationsIsRefused) {
   whole = all_copies(one_pass(), plan, 3);
   whole.strips.pop_back();
   EXPECT_THROW(require_steps_make(plan, whole, "path.json"), InputError);
+}
+
+TEST_F(WheelPlanFile, ABladeThatThePartLacksStandsThereTurned) {
+  std::string text = kPlan;
+  text.insert(text.find("\"operations\""), "\"lacking\": [{\"faces\": [\"F1a\"], \"turns\": 1}], ");
+  write_plan(text);
+  const WheelPlan plan = read_wheel_plan(root_.string()).value();
+  ASSERT_EQ(plan.lacking.size(), 1U);
+  flank::internal::Setup setup;
+  setup.part.faces = {test::plane_face("F1", 4.0, 2.0)};
+  stand_lacking(plan, setup);
+  ASSERT_EQ(setup.standing.size(), 1U);
+  // A third of a turn about the line through (1, 0, 0) along z.
+  const double angle = 2.0 * std::numbers::pi / 3.0;
+  Box3 box;
+  for (const double x : {0.0, 4.0})
+    for (const double z : {0.0, 2.0}) box.add(Vec3(1.0 + (x - 1.0) * std::cos(angle), (x - 1.0) * std::sin(angle), z));
+  EXPECT_LT((setup.standing[0].box().low - box.low).norm(), 1e-9);
+  EXPECT_LT((setup.standing[0].box().high - box.high).norm(), 1e-9);
 }
 
 TEST(JudgedRoughing, AnEngagementAboveTheLimitIsAReason) {

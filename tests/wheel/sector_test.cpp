@@ -73,20 +73,20 @@ TEST(WheelSector, APieceOfAWheelHasAllCopiesAndNeighboursThatItLacks) {
   EXPECT_TRUE(missing_beside(three_mains(), make_sector(three_mains())).empty());
 }
 
-TEST(WheelSector, AHubThatGoesAllRoundIsOneSectorWithTheBladesThatItHas) {
-  WheelRoles piece = three_mains();
-  piece.count = 7, piece.whole = false;
-  piece.blades = {blade(false, 10.0, "F1", "F2"), blade(true, 30.0, "F5", "F6"), blade(false, 61.0, "F3", "F4")};
-  EXPECT_EQ(as_planned(piece, false).count, 7);
-  const WheelRoles roles = as_planned(piece, true);
+TEST(WheelSector, EveryBladeThatThePartLacksIsATurnedCopyOfOneThatItHas) {
+  WheelRoles roles = three_mains();
+  roles.count = 7, roles.whole = false;
+  const double pitch = 360.0 / 7.0;
+  roles.blades = {blade(false, 10.0, "F1", "F2"), blade(true, 30.0, "F5", "F6"),
+                  blade(false, 10.0 + pitch, "F3", "F4")};
   const WheelSector sector = make_sector(roles);
-  EXPECT_EQ(sector.copies, 1);
-  EXPECT_EQ(sector.sides(), (Names{"F1", "F2", "F5", "F6", "F3", "F4"}));
-  ASSERT_EQ(sector.channels.size(), 3U);
-  EXPECT_EQ(sector.channels[2].first, Names{"F3"});
-  EXPECT_EQ(sector.channels[2].second, Names{"F2"});
-  EXPECT_EQ(all_sectors(roles).size(), 1U);
-  EXPECT_TRUE(missing_beside(roles, sector).empty());
+  EXPECT_EQ(sector.copies, 7);
+  std::vector<int> mains, splitters;
+  for (const MissingBlade& one : missing_blades(roles, sector))
+    (one.blade.splitter ? splitters : mains).push_back(one.turns);
+  EXPECT_EQ(mains, (std::vector<int>{2, 3, 4, 5, 6}));
+  EXPECT_EQ(splitters, (std::vector<int>{1, 2, 3, 4, 5, 6}));
+  EXPECT_TRUE(missing_blades(three_mains(), make_sector(three_mains())).empty());
 }
 
 TEST(WheelSector, AHubIsCountedBySectors) {

@@ -17,6 +17,12 @@ std::vector<std::string> WheelBlade::flow() const {
   return out;
 }
 
+std::vector<std::string> WheelBlade::all() const {
+  std::vector<std::string> out = flow();
+  for (const auto* more : {&tips, &buried}) out.insert(out.end(), more->begin(), more->end());
+  return out;
+}
+
 int WheelRoles::mains() const {
   return static_cast<int>(std::count_if(blades.begin(), blades.end(), [](const WheelBlade& b) { return !b.splitter; }));
 }

@@ -36,6 +36,8 @@ struct WheelBlade {
   [[nodiscard]] std::vector<std::string> sides() const;
   /// Sides, edges and fillets: what is flow surface of a blade.
   [[nodiscard]] std::vector<std::string> flow() const;
+  /// Its tips and what is buried, too.
+  [[nodiscard]] std::vector<std::string> all() const;
 };
 
 struct WheelRoles {

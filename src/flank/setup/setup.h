@@ -8,6 +8,7 @@
 #include "flank/job.h"
 #include "flank/judge.h"
 #include "flank/part.h"
+#include "flank/triangle_mesh.h"
 
 namespace flank::internal {
 
@@ -20,6 +21,9 @@ struct Setup {
   std::vector<int> unread = {};  ///< faces that are in the file and could not be read, but for those ignored by name
   std::vector<SheetSide> sides = {};  ///< of the targets that bound no material
   double allowance_mm = 0.0;          ///< left on the faces of the part on purpose, >= 0
+  /// Bodies that stand on the part where all is there, such as blades that a piece of a wheel lacks: what they cover is not accessible.
+  /// They may be open where they stand.
+  std::vector<TriangleMesh> standing = {};
 };
 
 }  // namespace flank::internal

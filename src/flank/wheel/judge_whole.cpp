@@ -6,6 +6,7 @@
 
 #include "flank/io/face_names.h"
 #include "flank/pipeline/folder/judge_job.h"
+#include "flank/pipeline/folder/wheel_plan.h"
 #include "flank/pipeline/run_journal.h"
 #include "flank/results/view.h"
 #include "flank/setup/clearance_scene.h"
@@ -43,7 +44,8 @@ Result judged_path(const WheelWork& work, const std::vector<std::string>& faces,
   job.judge.least_coverage = least;
   job.judge.reach_radius_mm = kOpenBall * work.job.tolerance_mm;
   if (!work.roles.debris.empty()) job.obstacles.ignore_faces = face_list(work.roles.debris);
-  const Setup setup = read_setup(job.part, job.obstacles, job.tolerance_mm, result.notes);
+  Setup setup = read_setup(job.part, job.obstacles, job.tolerance_mm, result.notes);
+  if (care == Care::kFull) stand_lacking(*read_wheel_plan(work.job.folder), setup);
   if (care == Care::kDraft) job.judge.sample_mm = coarse_spacing(setup, kDraftSamples);
   result.job = job;
   result.inputs = input_stamps(job);

@@ -95,6 +95,12 @@ std::string rest_text(const std::vector<RestPlace>& rest) {
   return text;
 }
 
+nlohmann::ordered_json lacking_json(const std::vector<MissingBlade>& lacking) {
+  auto list = nlohmann::ordered_json::array();
+  for (const MissingBlade& one : lacking) list.push_back({{"faces", one.blade.all()}, {"turns", one.turns}});
+  return list;
+}
+
 nlohmann::ordered_json reasons_json(const Acceptance& acceptance) {
   auto list = nlohmann::ordered_json::array();
   for (const Shortfall& reason : acceptance.reasons) list.push_back({{"figure", reason.figure}, {"text", reason.text}});
@@ -142,6 +148,7 @@ std::string plan_json(const WheelResult& result) {
   if (result.roles.count > 0) json["pitch_deg"] = 360.0 / result.roles.count;
   json["most_engagement_deg"] = result.most_engagement_deg;
   if (!result.blank.empty()) json["blank"] = {{"file", "blank.stl"}, {"from", result.blank}};
+  if (!result.lacking.empty()) json["lacking"] = lacking_json(result.lacking);
   json["tools"] = tools_json(result);
   json["operations"] = nlohmann::ordered_json::array();
   for (const WheelOperation& operation : result.operations)

@@ -104,27 +104,21 @@ WheelResult run_wheel(const WheelJob& job, const Progress& progress) {
   progress.step("read", 0.0);
   const Part part = read_part(job.part, job.unit);
   WheelResult result;
-  const WheelRoles found = recognise_wheel(part, job.choice);
-  std::vector<WheelFace> faces = wheel_faces(part);
-  result.roles = as_planned(found, !job.choice.count && sectors_of_hub(found, faces) >= found.count);
+  result.roles = recognise_wheel(part, job.choice);
   const WheelSector sector = make_sector(result.roles);
-  result.copies = sector.copies;
+  result.copies = sector.copies, result.lacking = missing_blades(result.roles, sector);
   make_folder(job.folder);
   const std::string plan = (fs::path(job.folder) / "plan.json").string();
   const WheelBlank blank = make_blank(job, part, result);
-  WheelWork work{job,   result.roles,      sector,           part,
-                 blank, FaceTargets(part), std::move(faces), finished_operations(plan)};
-  if (result.roles.count != found.count)
-    work.notes.push_back(
-        fmt::format("the hub is a full turn but carries only {} of {} main blades: the part is planned as it is",
-                    found.mains(), found.count));
+  WheelWork work{
+      job, result.roles, sector, part, blank, FaceTargets(part), wheel_faces(part), finished_operations(plan)};
   const auto run = [&](WheelOperation operation) {
     result.operations.push_back(std::move(operation));
     std::stable_sort(result.operations.begin(), result.operations.end(),
                      [](const auto& a, const auto& b) { return a.id < b.id; });
     write_file(plan, plan_json(result));
   };
-  write_file((fs::path(job.folder) / "wheel.json").string(), wheel_json(found));
+  write_file((fs::path(job.folder) / "wheel.json").string(), wheel_json(result.roles));
   run(side_operation(work, progress.part(0.0, 0.4)));
   result.copies = work.copies(), result.up = work.up(), result.notes = work.notes;
   run(floor_operation(work, progress.part(0.4, 0.5)));

@@ -45,6 +45,15 @@ const WheelBlade* pitch_on(const WheelRoles& roles, const WheelBlade& blade) {
   return nullptr;
 }
 
+/// Whether the part has no blade where a turned copy of this one would stand.
+bool lacks(const WheelRoles& roles, const WheelBlade& blade, int turns) {
+  const double there = blade.angle_deg + turns * 360.0 / roles.count;
+  return std::none_of(roles.blades.begin(), roles.blades.end(), [&](const WheelBlade& other) {
+    const double off = ahead_of(there, other.angle_deg);
+    return other.splitter == blade.splitter && std::min(off, 360.0 - off) < kSamePlaceDeg;
+  });
+}
+
 }  // namespace
 
 std::vector<std::string> WheelSector::sides() const {
@@ -130,22 +139,19 @@ double sectors_of_hub(const WheelRoles& roles, const std::vector<WheelFace>& fac
   return std::max(1.0, (2.0 * std::numbers::pi - gap) / pitch);
 }
 
-WheelRoles as_planned(WheelRoles roles, bool hub_closes) {
-  if (!roles.whole && hub_closes) roles.count = 1, roles.whole = true;
-  return roles;
+std::vector<MissingBlade> missing_blades(const WheelRoles& roles, const WheelSector& sector) {
+  std::vector<MissingBlade> out;
+  for (const WheelBlade& blade : sector.blades)
+    for (int turns = 1; turns < roles.count; ++turns)
+      if (lacks(roles, blade, turns)) out.push_back({blade, turns});
+  return out;
 }
 
 std::vector<MissingBlade> missing_beside(const WheelRoles& roles, const WheelSector& sector) {
   std::vector<MissingBlade> out;
   for (const WheelBlade& blade : sector.blades)
-    for (const int turns : {-1, 1}) {
-      const double there = blade.angle_deg + turns * 360.0 / roles.count;
-      const auto stands = [&](const WheelBlade& other) {
-        const double off = ahead_of(there, other.angle_deg);
-        return other.splitter == blade.splitter && std::min(off, 360.0 - off) < kSamePlaceDeg;
-      };
-      if (std::none_of(roles.blades.begin(), roles.blades.end(), stands)) out.push_back({blade, turns});
-    }
+    for (const int turns : {-1, 1})
+      if (lacks(roles, blade, turns)) out.push_back({blade, turns});
   return out;
 }
 

@@ -29,10 +29,6 @@ struct WheelSector {
 /// The sectors that the hub goes round, its rim counted; `roles.count` where it closes.
 [[nodiscard]] double sectors_of_hub(const WheelRoles& roles, const std::vector<WheelFace>& faces);
 
-/// The same roles, of a wheel that is planned as it is. A piece of a wheel stands for all of it; but where the hub goes all round, the part
-/// itself is to be made, with the blades that it has: it is one sector.
-[[nodiscard]] WheelRoles as_planned(WheelRoles roles, bool hub_closes);
-
 /// The first main blade with another one a pitch on, or itself where the wheel is one sector, and what stands between them. Throws InputError where no two main blades
 /// are there.
 [[nodiscard]] WheelSector make_sector(const WheelRoles& roles);
@@ -50,7 +46,9 @@ struct MissingBlade {
   WheelBlade blade;
   int turns = 0;
 };
-/// Those beside a sector, a pitch before and behind: the blades of a part that is a piece of the wheel have neighbours, too.
+/// All of them, turned by 1 to the number of sectors less 1.
+[[nodiscard]] std::vector<MissingBlade> missing_blades(const WheelRoles& roles, const WheelSector& sector);
+/// Those beside a sector, a pitch before (-1) and behind: the blades of a part that is a piece of the wheel have neighbours, too.
 [[nodiscard]] std::vector<MissingBlade> missing_beside(const WheelRoles& roles, const WheelSector& sector);
 
 /// Every strip as often as there are sectors, one after the other, numbered anew.

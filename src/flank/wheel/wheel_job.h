@@ -8,6 +8,7 @@
 #include "flank/feature/wheel_roles.h"
 #include "flank/pipeline/folder/judge_roughing.h"
 #include "flank/run.h"
+#include "flank/wheel/sector.h"
 
 namespace flank::internal {
 
@@ -68,8 +69,9 @@ struct WheelResult {
   std::vector<WheelOperation> operations;
   std::vector<RoleFigures> figures;
   std::vector<std::string> notes;
-  std::vector<RestPlace> rest;  ///< largest first
-  std::string blank;            ///< "turned", or the file that it is from; empty: nothing is roughed
+  std::vector<RestPlace> rest;        ///< largest first
+  std::vector<MissingBlade> lacking;  ///< what the wheel has and the part has not
+  std::string blank;                  ///< "turned", or the file that it is from; empty: nothing is roughed
   double most_engagement_deg = 180.0;
   std::optional<JudgedRoughing> roughing;
   std::optional<Result> whole;  ///< all copies of all finishing operations, judged on all flow faces

@@ -109,8 +109,8 @@ void accept_program(const Job& job, Verification& outcome) {
 }
 
 /// Of a wheel's folder: that its path is that of its operations, and roughing.
-void judge_steps(const std::string& folder, const Setup& setup, const Path& path, Verification& outcome) {
-  const std::optional<WheelPlan> plan = read_wheel_plan(folder);
+void judge_steps(const std::string& folder, const std::optional<WheelPlan>& plan, const Setup& setup, const Path& path,
+                 Verification& outcome) {
   if (!plan) return;
   require_steps_make(*plan, path, (std::filesystem::path(folder) / "path.json").string());
   const std::optional<JudgedRoughing> roughing = judge_roughing(*plan, setup);
@@ -127,7 +127,9 @@ Verification judge_path(const VerifyJob& request, const Job& job, const std::str
   Tool tool = read_and_equip(file("tool.json"), request.obstacles, job.obstacles);
   const Path path = read_path(file("path.json"));
   std::vector<std::string> repairs;  // told when the folder was made
-  const Setup setup = read_setup(machined(job), job.obstacles, job.tolerance_mm, repairs);
+  Setup setup = read_setup(machined(job), job.obstacles, job.tolerance_mm, repairs);
+  const std::optional<WheelPlan> plan = read_wheel_plan(request.folder);
+  if (plan) stand_lacking(*plan, setup);
   outcome.notes.assign(repairs.begin() + static_cast<std::ptrdiff_t>(setup.part.repairs.size()), repairs.end());
   if (request.obstacles.shank == "auto") {
     ObstacleRequest chosen = request.obstacles;
@@ -148,7 +150,7 @@ Verification judge_path(const VerifyJob& request, const Job& job, const std::str
   const BendRadii bends =
       least_bend_radii(path, tool.radial.axis_length(), kToleranceBudget.chord * setup.tolerance_mm);
   accept_bends(job, bends, outcome.acceptance);
-  judge_steps(request.folder, setup, path, outcome);
+  judge_steps(request.folder, plan, setup, path, outcome);
   std::map<std::string, std::string> files{
       {"verify.json", verify_to_json(outcome.report, outcome.acceptance)},
       {"view.json", view_to_json(make_view(outcome.job, setup, tool, path, outcome.report))}};

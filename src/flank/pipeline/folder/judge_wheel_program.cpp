@@ -93,7 +93,8 @@ Verification judge_wheel_program(const VerifyJob& request, const WheelPlan& plan
       },
       all.job);
   std::vector<std::string> repairs;
-  const Setup setup = read_setup(question.part, question.obstacles, question.tolerance_mm, repairs);
+  Setup setup = read_setup(question.part, question.obstacles, question.tolerance_mm, repairs);
+  stand_lacking(plan, setup);
   const Runs runs = run_all(request, question, setup, steps, machine, operations, all);
   std::vector<std::string> folders;
   for (const WheelStep* step : steps) folders.push_back(step->folder);

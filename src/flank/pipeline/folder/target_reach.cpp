@@ -138,12 +138,14 @@ TargetReach::TargetReach(const Setup& setup, const ReachBall& ball, const std::v
   const double radius = radius_mm_ = ball.radius_mm;
   std::vector<int> judged = setup.targets;
   judged.insert(judged.end(), setup.checks.begin(), setup.checks.end());
-  if (judged.size() < 2 && !ball.corners) return;
+  if (judged.size() < 2 && !ball.corners && setup.standing.empty()) return;
   const std::vector<int> around = faces_around(part, judged);
   std::vector<TriangleMesh> meshes = meshes_of(setup, around, judged, balls_of(samples, radius), radius);
   std::vector<ReachFace> all;
   for (std::size_t k = 0; k < around.size(); ++k)
     all.push_back({std::move(meshes[k]), solid_of(part, around[k]), holds(judged, around[k])});
+  for (std::size_t k = 0; k < setup.standing.size(); ++k)
+    all.push_back({setup.standing[k], part.solids + static_cast<int>(k), true});
   const ReachFaces faces(all);
   for (const int own : setup.targets) {
     const auto at = static_cast<std::size_t>(std::find(around.begin(), around.end(), own) - around.begin());

@@ -6,8 +6,11 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "flank/error.h"
+#include "flank/geom/tessellate.h"
+#include "flank/io/face_names.h"
 #include "flank/io/text/json_input.h"
 #include "flank/path_file.h"
 
@@ -51,6 +54,22 @@ WheelStep step_of(const std::string& folder, const JsonInput& json, const nlohma
   return step;
 }
 
+LackingBlade lacking_of(const JsonInput& json) {
+  LackingBlade blade;
+  const JsonInput faces = json.member("faces");
+  for (std::size_t k = 0; k < faces.size(); ++k) blade.faces.push_back(faces.element(k).text());
+  blade.turns = json.member("turns").integer();
+  return blade;
+}
+
+/// The faces of the part that a list of names means; of a piece the whole face, whichever pieces the part is told apart into.
+std::set<int> faces_named(const Part& part, const std::vector<std::string>& names) {
+  std::set<int> out;
+  for (const std::string& name : names)
+    for (const int face : parse_face_list(part, fmt::format("F{}", parse_face_name(name).number))) out.insert(face);
+  return out;
+}
+
 }  // namespace
 
 const WheelStep* WheelPlan::roughing() const {
@@ -77,10 +96,30 @@ std::optional<WheelPlan> read_wheel_plan(const std::string& folder) {
   plan.whole = truth_of(json, raw, "whole");
   if (json.has("blank")) plan.blank = inside(folder, json.member("blank").member("file"));
   plan.most_engagement_deg = json.member("most_engagement_deg").positive();
+  if (json.has("lacking")) {
+    const JsonInput lacking = json.member("lacking");
+    for (std::size_t k = 0; k < lacking.size(); ++k) plan.lacking.push_back(lacking_of(lacking.element(k)));
+  }
   const JsonInput steps = json.member("operations");
   for (std::size_t k = 0; k < steps.size(); ++k)
     plan.steps.push_back(step_of(folder, steps.element(k), raw.at("operations").at(k)));
   return plan;
+}
+
+void stand_lacking(const WheelPlan& plan, Setup& setup) {
+  constexpr double kChordShare = 0.1;  ///< of the tolerance
+  const Part& part = setup.part;
+  for (const LackingBlade& blade : plan.lacking) {
+    TriangleMesh body;
+    for (const int face : faces_named(part, blade.faces))
+      append(body, part.is_mesh() ? extract_mesh(part, {face})
+                                  : tessellate(part.faces[static_cast<std::size_t>(face)],
+                                               {.chord_mm = kChordShare * setup.tolerance_mm})
+                                        .mesh);
+    const Eigen::Isometry3d turn = copy_turn(plan.axis, blade.turns + 1, plan.sectors);
+    for (Vec3& p : body.vertices) p = turn * p;
+    setup.standing.push_back(std::move(body));
+  }
 }
 
 void require_steps_make(const WheelPlan& plan, const Path& path, const std::string& file) {

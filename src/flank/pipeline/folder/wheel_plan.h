@@ -7,6 +7,7 @@
 
 #include "flank/path.h"
 #include "flank/pipeline/folder/turned_copies.h"
+#include "flank/setup/setup.h"
 
 namespace flank::internal {
 
@@ -18,6 +19,12 @@ struct WheelStep {
   std::string problem;  ///< why it is not done
 };
 
+/// A blade of the wheel that the part lacks: one that it has, turned.
+struct LackingBlade {
+  std::vector<std::string> faces;
+  int turns = 1;  ///< pitches
+};
+
 struct WheelPlan {
   CopyAxis axis;
   std::optional<Vec3> up;                           ///< unit vector along the axis: to the spindle; none in older files
@@ -25,12 +32,17 @@ struct WheelPlan {
   bool whole = true;                                ///< the part has all of them
   std::string blank;                                ///< file of the blank, beside the working folder; empty: none
   double most_engagement_deg = 180.0;               ///< while roughing; 180: slots are allowed
+  std::vector<LackingBlade> lacking;                ///< of a piece of a wheel
   std::vector<WheelStep> steps;                     ///< in the order of machining
   [[nodiscard]] const WheelStep* roughing() const;  ///< that is done; null: none
 };
 
 /// None where the folder has no plan.json. Throws InputError, naming file and key, for one that cannot be used.
 [[nodiscard]] std::optional<WheelPlan> read_wheel_plan(const std::string& folder);
+
+/// Stands the blades that the part lacks on it: what they cover need not be finished. Throws InputError for faces that the part does not
+/// have.
+void stand_lacking(const WheelPlan& plan, Setup& setup);
 
 /// Throws InputError where the path is not that of the finishing steps and their copies: `file` is for the message.
 void require_steps_make(const WheelPlan& plan, const Path& path, const std::string& file);
