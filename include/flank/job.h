@@ -181,6 +181,16 @@ struct TrochoidJob {
   return part;
 }
 
+/// What a tool is run with, for what it leaves when it bends.
+struct BendingRequest {
+  bool on = false;
+  std::optional<std::string> material;  ///< of share/materials; needed
+  std::optional<int> flutes;            ///< needed
+  double helix_deg = 30.0;
+  std::optional<double> finish_stock_mm;  ///< as in PostJob
+  bool operator==(const BendingRequest&) const = default;
+};
+
 /// Judge again what fit, cover or trochoid left in a folder. What is given takes the place of the job's own.
 struct VerifyJob {
   std::string folder;                     ///< may be empty if a program, its part and its tool are given
@@ -190,6 +200,7 @@ struct VerifyJob {
   std::optional<double> tolerance_mm, sample_mm, reach_radius_mm, stock_cell_mm;
   std::optional<int> side;  ///< as in PartRequest
   ObstacleRequest obstacles;
+  BendingRequest bending;
   bool operator==(const VerifyJob&) const = default;
 };
 
@@ -226,6 +237,10 @@ struct PostJob {
   std::optional<std::string>
       material;               ///< of share/materials: gives the spindle's speed and the feed where they are not given
   std::optional<int> flutes;  ///< of the tool, for the feed of a material
+  double helix_deg = 30.0;    ///< of the tool's cutting edges to its axis
+  /// Thickness of what roughing has left on the targets, for this path to take: with a material, the feed follows the load.
+  std::optional<double> finish_stock_mm;
+  std::optional<double> most_force_n, most_power_w, most_deflection_mm;  ///< bounds of the load; the last of the tip
   bool operator==(const PostJob&) const = default;
 };
 

@@ -582,6 +582,11 @@ def verify(
     fixtures: Sequence[_File] | None = None,
     fixture_unit: str | None = None,
     clearance_mm: float | None = None,
+    bending: bool = ...,
+    material: str | None = None,
+    flutes: int | None = None,
+    helix: float = ...,
+    finish_stock_mm: float | None = None,
 ) -> Verification: ...
 def post(
     folder: _File,
@@ -599,6 +604,11 @@ def post(
     spindle: float | None = None,
     material: str | None = None,
     flutes: int | None = None,
+    helix: float = ...,
+    finish_stock_mm: float | None = None,
+    most_force: float | None = None,
+    most_power: float | None = None,
+    most_deflection_mm: float | None = None,
     operations: Sequence[_File] | None = None,
     copies: int = ...,
     copy_axis: str | None = None,

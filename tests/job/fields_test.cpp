@@ -83,10 +83,12 @@ Addresses members(const TrochoidJob& job) {
 }
 Addresses members(const PostJob& job) {
   const auto& [folder, more, operations, copies, axis, coolant, clamp, machine, part, setup, feed, speed, most,
-               deviation, tool_length, clearance, lift, order, spindle, dry, force, material, flutes] = job;
+               deviation, tool_length, clearance, lift, order, spindle, dry, force, material, flutes, helix,
+               finish_stock, most_force, most_power, most_deflection] = job;
   Addresses all;
   add(all, folder, more, operations, copies, axis, coolant, clamp, machine, part, setup, feed, speed, most, deviation,
-      tool_length, clearance, lift, order, spindle, dry, force, material, flutes);
+      tool_length, clearance, lift, order, spindle, dry, force, material, flutes, helix, finish_stock, most_force,
+      most_power, most_deflection);
   return all;
 }
 Addresses members(const DesignJob& job) {
@@ -118,11 +120,12 @@ Addresses members(const RedesignJob& job) {
   return all;
 }
 Addresses members(const VerifyJob& job) {
-  const auto& [folder, more, nc, part, tolerance, sample, reach, cell, side, obstacles] = job;
+  const auto& [folder, more, nc, part, tolerance, sample, reach, cell, side, obstacles, bending] = job;
+  const auto& [on, material, flutes, helix, finish_stock] = bending;
   Addresses all;
   add_members(nc, all);
   add_members(obstacles, all);
-  add(all, folder, more, part, tolerance, sample, reach, cell, side);
+  add(all, folder, more, part, tolerance, sample, reach, cell, side, on, material, flutes, helix, finish_stock);
   return all;
 }
 

@@ -37,15 +37,14 @@ TEST(EngagementFeed, IsFasterWhereLessIsEngagedUpToItsMost) {
   EXPECT_EQ(feed_at(0.0, {.feed = 10.0}), 10.0) << "no reference: the feed is even";
 }
 
-TEST(EngagementFeed, AWayHasTheFeedOfItsLargestEngagement) {
-  const EngagementFeed rule{.feed = 10.0, .reference = 60.0 * kDegree, .most_feed = 1000.0};
-  const std::vector<double> engagement{0.1, 0.5, 0.2, 0.4};
-  EXPECT_EQ(feed_between(engagement, 0.0, 3.0, rule), feed_at(0.5, rule));
-  EXPECT_EQ(feed_between(engagement, 0.0, 1.0, rule), feed_at(0.5, rule));
-  EXPECT_NEAR(feed_between(engagement, 0.0, 0.5, rule), feed_at(0.3, rule), 1e-12);
-  EXPECT_NEAR(feed_between(engagement, 2.0, 2.75, rule), feed_at(0.35, rule), 1e-12);
-  EXPECT_EQ(feed_between(engagement, 3.0, 3.0, rule), feed_at(0.4, rule));
-  EXPECT_EQ(feed_between({}, 0.0, 3.0, rule), 10.0);
+TEST(EngagementFeed, AWayHasTheFeedOfItsSlowestPlace) {
+  const std::vector<double> slowness{0.1, 0.5, 0.2, 0.4};
+  EXPECT_EQ(feed_between(slowness, 0.0, 3.0, 7.0), 2.0);
+  EXPECT_EQ(feed_between(slowness, 0.0, 1.0, 7.0), 2.0);
+  EXPECT_NEAR(feed_between(slowness, 0.0, 0.5, 7.0), 1.0 / 0.3, 1e-12);
+  EXPECT_NEAR(feed_between(slowness, 2.0, 2.75, 7.0), 1.0 / 0.35, 1e-12);
+  EXPECT_EQ(feed_between(slowness, 3.0, 3.0, 7.0), 2.5);
+  EXPECT_EQ(feed_between({}, 0.0, 3.0, 7.0), 7.0);
 }
 
 /// A side cut of 100 mm, along an arc so wide that hardly a pose is left out, whose radial depth swells and ebbs.
@@ -92,13 +91,14 @@ TEST(EngagementFeed, AProgramKeepsItsThickestChip) {
   PostOptions options;
   options.setup.translation = Vec3(0, 0, 50);
   options.deviation = 1e-6;
-  options.engagement = {cut.engagement};
-  options.feed = {.feed = 1000.0 / 60.0, .reference = 60.0 * kDegree, .most_feed = 1e4};
+  const EngagementFeed rule{.feed = 1000.0 / 60.0, .reference = 60.0 * kDegree, .most_feed = 1e4};
+  options.slowness.resize(1);
+  for (const double engagement : cut.engagement) options.slowness[0].push_back(1.0 / feed_at(engagement, rule));
   const auto [least, largest] = chips(post(machine, cut.path, tool, options), cut, 1000.0);
   const double wanted = std::sin(60.0 * kDegree);
   EXPECT_LE(largest, wanted * (1.0 + 1e-3));
   EXPECT_GE(least, wanted * 0.97);
-  options.feed.reference = 0.0;
+  options.slowness.clear();
   const auto [thin, thick] = chips(post(machine, cut.path, tool, options), cut, 1000.0);
   EXPECT_LT(thin, 0.5 * thick);
 }

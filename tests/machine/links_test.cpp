@@ -32,7 +32,7 @@ TEST(Links, StripsThatGoOnIntoOneAnotherAreOne) {
 // An arc of 60 degrees: tangent to the motion at the contact, `off` away from the surface at its end, the axis as it was.
 TEST(Links, ALeadLeavesTangentToTheMotion) {
   const Pose contact{Vec3(1, 2, 3), Vec3::UnitZ()};
-  const std::vector<Pose> arc = lead_out(contact, {Vec3(0, 2, 0), Vec3::UnitX()});
+  const std::vector<Pose> arc = lead_out(contact, {Vec3(0, 2, 0), {Vec3::UnitX(), Vec3::Zero()}});
   ASSERT_GT(arc.size(), 6U);
   EXPECT_EQ(arc.front().tip, contact.tip);
   const Vec3 first = (arc[1].tip - arc[0].tip).normalized();
@@ -44,7 +44,20 @@ TEST(Links, ALeadLeavesTangentToTheMotion) {
     EXPECT_EQ(arc[k].axis, contact.axis);
   }
   EXPECT_EQ(lead_out(contact, {}).size(), 1U);
-  EXPECT_EQ(lead_out(contact, {Vec3(0, 2, 0), Vec3::Zero()}).back().tip, Vec3(1, 4, 3));
+  EXPECT_EQ(lead_out(contact, {Vec3(0, 2, 0)}).back().tip, Vec3(1, 4, 3));
+}
+
+// A strip that turns the tool: the lead goes on turning it as fast, so that no rotary axis has to stop where they meet.
+TEST(Links, ALeadGoesOnTurningAsTheMotionDoes) {
+  const Pose contact{Vec3(1, 2, 3), Vec3(0.0, 0.6, 0.8)};
+  const PoseVelocity motion{Vec3(0.9, 0.1, 0.0), Vec3(0.01, 0.02, -0.015)};
+  const std::vector<Pose> arc = lead_out(contact, {Vec3(0, 0, 2), motion});
+  const double way = 4.0 * std::sin(M_PI / 3.0 / 12.0), height = 4.0 * (1.0 - std::cos(M_PI / 3.0 / 12.0));
+  EXPECT_NEAR((arc[1].tip - contact.tip - way * motion.tip - height * Vec3::UnitZ()).norm(), 0.0, 1e-12);
+  const Vec3 turned = (arc[1].axis - contact.axis) / way,
+             across = motion.axis - contact.axis.dot(motion.axis) * contact.axis;
+  EXPECT_NEAR((turned - across).norm(), 0.0, 0.02 * across.norm());
+  for (const Pose& pose : arc) EXPECT_NEAR(pose.axis.norm(), 1.0, 1e-12);
 }
 
 TEST(Links, StripsAreRunWhereTheWayToTheNextIsShort) {

@@ -42,7 +42,7 @@ NcProgram program_for(const Machine& machine, double spindle) {
   options.setup.translation = Vec3(5, -8, 60);
   options.setup.angles_deg = {10.0, -5.0, 30.0};
   options.deviation = 1e-3;
-  options.feed.feed = 20.0;
+  options.feed = 20.0;
   Post posted = post(machine, linked(machine, options.setup), kTool, options);
   EXPECT_FALSE(posted.unreachable) << machine.name << ": " << posted.unreachable->reason;
   posted.program.header.spindle_rpm = spindle;
@@ -151,7 +151,7 @@ TEST_P(ProgramShape, StandsUprightWhereToolCentreControlIsSwitched) {
 TEST_P(ProgramShape, WhatItsDigitsAddIsTold) {
   PostOptions options;
   options.setup.translation = Vec3(5, -8, 60);
-  options.feed.feed = 20.0;
+  options.feed = 20.0;
   for (const int decimals : {0, 2, machine_.dialect.length_decimals}) {
     machine_.dialect.length_decimals = decimals;
     const Post told = post(machine_, linked(machine_, options.setup), kTool, options);

@@ -129,7 +129,7 @@ TEST(LeadSearch, OthersFollowUntilThereIsNone) {
   const Lead first = search.lead(1);
   ASSERT_TRUE(search.next(1));
   const Lead second = search.lead(1);
-  EXPECT_GT((first.off - second.off).norm() + (first.along - second.along).norm(), 1e-3);
+  EXPECT_GT((first.off - second.off).norm() + (first.along.tip - second.along.tip).norm(), 1e-3);
   EXPECT_GT(second.off.y(), 0.0) << "the second best is off the wall too";
   int others = 2;
   while (search.next(1)) ++others;

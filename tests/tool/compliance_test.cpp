@@ -27,6 +27,31 @@ TEST(Compliance, OfAConeHasItsClosedForm) {
   EXPECT_NEAR(compliance(cone(a, 0.1, length)), std::pow(length, 3) / (3.0 * a * std::pow(top, 3)), 1e-10 * 40.0);
 }
 
+TEST(Compliance, InfluenceOfACylinderIsThatOfTheText) {
+  const double radius = 3.0, length = 40.0, inertia = std::numbers::pi * std::pow(radius, 4) / 4.0;
+  const Tool tool{cylinder(radius, length), "end mill", {}, {}};
+  EXPECT_EQ(clamped_at(tool), length);
+  for (const double force : {0.0, 7.0, 25.0, 39.0})
+    for (const double moved : {0.0, 11.0, 25.0, 33.0}) {
+      // A cantilever: a from the clamp to the force, x to where it is looked at.
+      const double a = length - std::min(force, moved), x = length - std::max(force, moved);
+      const double closed = x * x * (3.0 * a - x) / (6.0 * kCarbideModulus * inertia);
+      EXPECT_NEAR(influence_mm(tool, force, moved), closed, 1e-9 * closed) << force << " " << moved;
+      EXPECT_NEAR(influence_mm(tool, moved, force), closed, 1e-9 * closed);
+    }
+}
+
+TEST(Compliance, InfluenceOnItselfAtTheTipIsTheStiffness) {
+  const Tool tool{cone(2.0, 0.08, 30.0),
+                  "cone",
+                  {{30.0, 5.0}, {45.0, 5.0}, {50.0, 6.0}, {70.0, 6.0}},
+                  {{62.0, 20.0}, {90.0, 20.0}}};
+  EXPECT_EQ(clamped_at(tool), 62.0);
+  EXPECT_NEAR(1e3 * kStiffnessForce * influence_mm(tool, 0.0, 0.0), stiffness(tool).deflection_um,
+              1e-6 * stiffness(tool).deflection_um);
+  EXPECT_EQ(influence_mm(tool, 65.0, 10.0), 0.0);
+}
+
 TEST(Compliance, SlendernessDoesNotChangeWithSize) {
   EXPECT_NEAR(slenderness(40.0, compliance(cone(1.5, 0.1, 40.0))), slenderness(80.0, compliance(cone(3.0, 0.1, 80.0))),
               1e-12);

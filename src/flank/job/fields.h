@@ -103,6 +103,8 @@ inline constexpr Accepted kEntry{"must be auto, open, ramp or plunge", nullptr, 
                                  }};
 inline constexpr Accepted kRampAngle{"expected an angle of at least 0.1 and at most 45 degrees",
                                      [](double x) { return x >= 0.1 && x <= 45.0; }};
+inline constexpr Accepted kHelix{"expected an angle from 0 to 60 degrees",
+                                 [](double x) { return x >= 0.0 && x <= 60.0; }};
 inline constexpr Accepted kCopies{"expected a number from 1 to 999", [](double x) { return x >= 1.0 && x <= 999.0; }};
 inline constexpr Accepted kCoolant{"must be off, flood or mist", nullptr,
                                    [](std::string_view x) { return x == "off" || x == "flood" || x == "mist"; }};
@@ -404,6 +406,25 @@ void visit_operations(Job& job, Visitor& visit) {
         job.coolant);
 }
 
+/// What the feed follows, and what bounds it.
+template <class Visitor, Is<PostJob> Job>
+void visit_loads(Job& job, Visitor& visit) {
+  using namespace accepted;
+  constexpr std::string_view kGroup = "Load (with --material)";
+  visit(FieldInfo{"helix", "", kGroup, "Helix angle of the cutting edges, degrees", kHelix}, job.helix_deg);
+  visit(FieldInfo{"finish_stock", "mm", kGroup,
+                  "Thickness of what roughing has left on the machined faces: the feed follows the load of taking it. "
+                  "A cavity's load is in its folder",
+                  kLength},
+        job.finish_stock_mm);
+  visit(FieldInfo{"most_force", "", kGroup, "Largest cutting force, N: the feed is slower where it would be exceeded",
+                  kRatio},
+        job.most_force_n);
+  visit(FieldInfo{"most_power", "", kGroup, "Largest cutting power, W", kRatio}, job.most_power_w);
+  visit(FieldInfo{"most_deflection", "mm", kGroup, "Largest deflection of the tool's tip", kLength},
+        job.most_deflection_mm);
+}
+
 template <class Visitor, Is<PostJob> Job>
 void visit_fields(Job& job, Visitor&& visit) {
   using namespace accepted;
@@ -456,6 +477,7 @@ void visit_fields(Job& job, Visitor&& visit) {
         job.material);
   visit(FieldInfo{"flutes", "", "", "Number of the tool's cutting edges, for the feed of --material", kToolNumber},
         job.flutes);
+  visit_loads(job, visit);
   visit_operations(job, visit);
   visit(FieldInfo{"dry", "", "", "Dry run: the spindle stands still, and the program's header says so", kAny,
                   Spelling::kFlag},
@@ -539,6 +561,25 @@ void visit_fields(Job& job, Visitor&& visit) {
         job.avoid);
 }
 
+template <class Visitor, Is<BendingRequest> Request>
+void visit_bending(Request& bending, Visitor& visit) {
+  using namespace accepted;
+  constexpr std::string_view kGroup = "Bending";
+  visit(FieldInfo{"bending", "", kGroup,
+                  "Say what the tool leaves when it bends, too: at the feed that flank post takes with this material",
+                  kAny, Spelling::kFlag},
+        bending.on);
+  visit(FieldInfo{"material", "", kGroup, "Workpiece material (share/materials); needed by --bending"},
+        bending.material);
+  visit(FieldInfo{"flutes", "", kGroup, "Number of the tool's cutting edges; needed by --bending", kToolNumber},
+        bending.flutes);
+  visit(FieldInfo{"helix", "", kGroup, "Helix angle of the cutting edges, degrees", kHelix}, bending.helix_deg);
+  visit(
+      FieldInfo{"finish_stock", "mm", kGroup,
+                "Thickness of what roughing has left on the machined faces. A cavity's load is in its folder", kLength},
+      bending.finish_stock_mm);
+}
+
 template <class Visitor, Is<VerifyJob> Job>
 void visit_fields(Job& job, Visitor&& visit) {
   using namespace accepted;
@@ -558,6 +599,7 @@ void visit_fields(Job& job, Visitor&& visit) {
   visit(FieldInfo{"reach_radius", "mm", "Other faces", kReachHelp, kRadius}, job.reach_radius_mm);
   visit(FieldInfo{"stock_cell", "mm", "", kCellHelp, kLength}, job.stock_cell_mm);
   visit_obstacles(job.obstacles, visit);
+  visit_bending(job.bending, visit);
 }
 
 /// The word of the command line that asks for such a job.

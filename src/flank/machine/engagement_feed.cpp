@@ -15,18 +15,18 @@ double feed_at(double engagement, const EngagementFeed& rule) {
   return wanted >= rule.most_feed * share ? rule.most_feed : wanted / share;
 }
 
-double feed_between(std::span<const double> engagement, double from, double to, const EngagementFeed& rule) {
-  if (engagement.empty()) return rule.feed;
+double feed_between(std::span<const double> slowness, double from, double to, double even) {
+  if (slowness.empty()) return even;
   const auto at = [&](double place) {
-    const auto k = std::min(static_cast<std::size_t>(place), engagement.size() - 1);
-    const std::size_t next = std::min(k + 1, engagement.size() - 1);
-    return engagement[k] + (place - static_cast<double>(k)) * (engagement[next] - engagement[k]);
+    const auto k = std::min(static_cast<std::size_t>(place), slowness.size() - 1);
+    const std::size_t next = std::min(k + 1, slowness.size() - 1);
+    return slowness[k] + (place - static_cast<double>(k)) * (slowness[next] - slowness[k]);
   };
   // Straight between the poses: the largest is at an end or at a pose.
   double largest = std::max(at(from), at(to));
-  for (auto k = static_cast<std::size_t>(std::ceil(from)); static_cast<double>(k) <= to && k < engagement.size(); ++k)
-    largest = std::max(largest, engagement[k]);
-  return feed_at(largest, rule);
+  for (auto k = static_cast<std::size_t>(std::ceil(from)); static_cast<double>(k) <= to && k < slowness.size(); ++k)
+    largest = std::max(largest, slowness[k]);
+  return 1.0 / largest;
 }
 
 }  // namespace flank::internal

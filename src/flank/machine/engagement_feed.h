@@ -20,9 +20,8 @@ struct EngagementFeed {
 /// The contact's feed at an engagement, mm/s: feed chip_share(reference) / chip_share(engagement), at most most_feed.
 [[nodiscard]] double feed_at(double engagement, const EngagementFeed& rule);
 
-/// The slowest of the feeds on the way between two places of a strip, pose index and fraction, from <= to. `engagement`
-/// is that of each pose and runs straight between them; empty: the feed is even.
-[[nodiscard]] double feed_between(std::span<const double> engagement, double from, double to,
-                                  const EngagementFeed& rule);
+/// The slowest feed on the way between two places of a strip, pose index and fraction, from <= to. `slowness`: of each pose the
+/// least time for a mm, s, which runs straight between them; empty: the feed is `even`. mm/s.
+[[nodiscard]] double feed_between(std::span<const double> slowness, double from, double to, double even);
 
 }  // namespace flank::internal

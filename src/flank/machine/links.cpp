@@ -157,7 +157,7 @@ std::vector<Pose> lead_out(const Pose& first, const Lead& lead) {
   const Pose contact = way.back();
   const double lift = lead.off.norm();
   if (!(lift > 0.0)) return way;
-  if (lead.along.isZero()) {
+  if (!lead.is_arc()) {
     way.push_back({contact.tip + lead.off, contact.axis});
     return way;
   }
@@ -166,8 +166,9 @@ std::vector<Pose> lead_out(const Pose& first, const Lead& lead) {
   const double radius = lift / (1.0 - std::cos(kArc));
   for (int k = 1; k <= kSteps; ++k) {
     const double angle = kArc * k / kSteps;
-    const Vec3 step = radius * std::sin(angle) * lead.along + radius * (1.0 - std::cos(angle)) / lift * lead.off;
-    way.push_back({contact.tip + step, contact.axis});
+    const double on = radius * std::sin(angle), away = radius * (1.0 - std::cos(angle)) / lift;
+    way.push_back(
+        {contact.tip + on * lead.along.tip + away * lead.off, (contact.axis + on * lead.along.axis).normalized()});
   }
   return way;
 }

@@ -4,20 +4,23 @@
 #include <vector>
 
 #include "flank/path.h"
+#include "flank/path/pose_velocity.h"
 #include "flank/path/strip_kind.h"
 
 namespace flank::internal {
 
 /// How a tool leaves the surface at the end of a strip, or, backwards, comes to it at the beginning.
 struct Lead {
-  Vec3 off = Vec3::Zero();    ///< mm, across the axis, from the surface; zero: straight along the axis
-  Vec3 along = Vec3::Zero();  ///< unit vector across `off` that goes on past the strip's end; zero: straight off
-  Vec3 out = Vec3::Zero();    ///< unit vector along which the tool then leaves the part; zero: along its axis
-  std::vector<Pose> back{};   ///< run before all of that: back along the strip, to where the tool can leave
+  Vec3 off = Vec3::Zero();  ///< mm, across the axis, from the surface; zero: straight along the axis
+  /// How the motion goes on past the strip's end, turns included: for every mm of the way of an axis point that goes across `off`. None: straight off.
+  PoseVelocity along = {};
+  Vec3 out = Vec3::Zero();      ///< unit vector along which the tool then leaves the part; zero: along its axis
+  std::vector<Pose> back = {};  ///< run before all of that: back along the strip, to where the tool can leave
+  [[nodiscard]] bool is_arc() const { return !along.tip.isZero() || !along.axis.isZero(); }
 };
 
-/// The poses of a lead up to where the tool leaves the part, the contact first, then those of `back`. Past the end on an arc tangent to the motion, so that no mark is left where the
-/// tool would turn off, of 60 degrees and radius 2 |off|; or straight off.
+/// The poses of a lead up to where the tool leaves the part, the contact first, then those of `back`. Past the end on an arc tangent to the motion in place and in direction,
+/// so that no mark is left where the tool would turn off, and no axis of the machine has to stop there: of 60 degrees and radius 2 |off|; or straight off.
 [[nodiscard]] std::vector<Pose> lead_out(const Pose& contact, const Lead& lead);
 
 /// The order of the strips, by index, in which the ways between them round a box are short: the turn of the outward

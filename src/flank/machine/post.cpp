@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "flank/error.h"
+#include "flank/machine/control_time.h"
+#include "flank/machine/engagement_feed.h"
 #include "flank/machine/feed.h"
 #include "flank/machine/links.h"
 #include "flank/machine/nc/write/timed_blocks.h"
@@ -175,8 +177,8 @@ class Poster {
   double cap_of(std::size_t strip, std::size_t block) const {
     if (is_link(path_.strips[strip]) || options_.time_optimal) return machine_.rapid;
     const std::vector<double>& at = strips_[strip].at;
-    if (strip >= options_.engagement.size()) return options_.feed.feed;
-    return feed_between(options_.engagement[strip], at[block - 1], at[block], options_.feed);
+    if (strip >= options_.slowness.size()) return options_.feed;
+    return feed_between(options_.slowness[strip], at[block - 1], at[block], options_.feed);
   }
 
   void plan_feeds() {
@@ -267,6 +269,19 @@ class Poster {
     // Held back by no more than blocks deviate anyway.
     const double held = state_feeds(program, times_, machine_.dialect, options_.deviation);
     post_.rounding_mm = rounding() + held;
+    if (rests_between_blocks(machine_, program)) take_control_time();
+  }
+
+  /// What the control makes of the program, beside what was planned.
+  void take_control_time() {
+    const std::vector<double> seconds = resting_seconds(machine_, post_.program);
+    double all = 0.0;
+    for (std::size_t i = 0; i < seconds.size(); ++i) {
+      all += seconds[i];
+      const bool link = is_link(path_.strips[static_cast<std::size_t>(post_.program.moves[i].strip)]);
+      if (!link) post_.resting_cutting_s += seconds[i];
+    }
+    post_.resting_s = all;
   }
 
   /// The blocks of all strips, and how long each shall take.

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "flank/machine/engagement_feed.h"
 #include "flank/machine/joint_choice.h"
 #include "flank/machine/linearise.h"
 #include "flank/machine/model/machine.h"
@@ -26,9 +25,9 @@ struct PostOptions {
   WorkSetup setup;
   double deviation = 1e-4;       ///< mm: LineariseOptions
   double link_deviation = 0.01;  ///< mm, of links
-  EngagementFeed feed;           ///< of the contact along strips
-  /// Of each pose of each strip, radians; empty lists, or none at all, where it is not known.
-  std::vector<std::vector<double>> engagement;
+  double feed = 1000.0 / 60.0;   ///< of the contact along strips, mm/s, where nothing else is known
+  /// Of each pose of each strip the least time for a mm, s: the inverse of its feed; empty lists, or none at all, where it is not known.
+  std::vector<std::vector<double>> slowness;
   bool time_optimal = false;  ///< as fast as the joints can instead
 };
 
@@ -56,7 +55,10 @@ struct Post {
   double rounding_mm = 0.0;   ///< bound of what the program's digits add
   double least_sine = 1.0;    ///< of the angle between the tool and the first rotary axis
   int flips = 0;
-  double time_s = 0.0, cutting_s = 0.0;
+  double time_s = 0.0, cutting_s = 0.0;  ///< as planned, and as the feeds say
+  /// Of a control that comes to rest at the end of every block (control_time.h): what its run takes; none: as planned.
+  std::optional<double> resting_s = {};
+  double resting_cutting_s = 0.0;
   std::vector<JointUse> use;
   std::vector<TracePoint> trace;  ///< at the nodes of the feed's plan: joints run straight between them
 };

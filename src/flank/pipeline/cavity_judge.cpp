@@ -59,6 +59,7 @@ void PlanJudge::finish(const CavityPlan& plan, Result& result) const {
   drawings->blank = plan.program.blank;
   drawings->left = std::move(known.stock->left);
   drawings->engagement = std::move(known.stock->engagement);
+  drawings->arcs = std::move(known.stock->arcs);
   result.drawings = std::move(drawings);
   watch_.lap("stock");
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "flank/envelope/strip_surface.h"
+#include "flank/path/engaged_arcs.h"
 #include "flank/path/half_space.h"
 #include "flank/results/view_mesh.h"
 #include "flank/run.h"
@@ -70,4 +71,5 @@ struct flank::Result::Drawings {
   std::vector<internal::HalfSpace> blank;       ///< of a program that is replayed
   TriangleMesh left;                            ///< of the stock, after it
   std::vector<std::vector<double>> engagement;  ///< of every pose of every strip, then: radians
+  internal::PathArcs arcs;                      ///< of the same
 };

@@ -66,7 +66,7 @@ std::map<std::string, std::string> result_files(const Result& result, const Acce
   if (result.drawings) files["view.json"] = view_to_json(result.drawings->view);
   if (result.drawings && !result.drawings->blank.empty()) files["blank.json"] = blank_to_json(result.drawings->blank);
   if (result.drawings && !result.drawings->engagement.empty())
-    files["engagement.json"] = engagement_to_json(result.drawings->engagement);
+    files["engagement.json"] = engagement_to_json(result.drawings->engagement, result.drawings->arcs);
   if (result.drawings && !result.drawings->left.triangles.empty())
     files["stock.stl"] = mesh_to_stl(result.drawings->left);
   if (result.ranking) files["ranking.json"] = ranking_to_json(*result.ranking);

@@ -15,6 +15,13 @@ namespace flank::internal {
 /// The same with its derivative by the parameters of the radial function.
 [[nodiscard]] double compliance(const RadialFunction& radial, Eigen::VectorXd& gradient);
 
+/// Where the tool is clamped: where its holder begins, without a holder at the upper end of its shank, or of its flank. s, mm.
+[[nodiscard]] double clamped_at(const Tool& tool);
+
+/// How far a force of one newton across the axis at height `force_at` moves the axis at height `moved_at`, across it too, mm: flank and
+/// shank bend as a beam of cemented carbide, clamped at clamped_at(). The same for the two heights exchanged; 0 above the clamp.
+[[nodiscard]] double influence_mm(const Tool& tool, double force_at, double moved_at);
+
 /// Slenderness L / d of the cylinder with the same length L and the same compliance c: d / 2 is (L^3 / (3 c))^(1/4).
 [[nodiscard]] double slenderness(double length_mm, double compliance_per_mm);
 

@@ -94,6 +94,19 @@ std::vector<double> engagement_of(const verify::StripReplay& strip) {
   return out;
 }
 
+std::vector<std::vector<EngagedArc>> arcs_of(const verify::StripReplay& strip) {
+  std::vector<std::vector<EngagedArc>> out(strip.poses.size());
+  std::size_t last = 0;
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    if (!strip.poses[k].measured) continue;
+    out[k] = strip.poses[k].arcs;
+    const bool more = strip.poses[k].angle_rad > strip.poses[last].angle_rad;
+    for (std::size_t i = last + 1; i < k; ++i) out[i] = more ? out[k] : out[last];
+    last = k;
+  }
+  return out;
+}
+
 /// A place of a face from which a ray goes to the middle of the cavity.
 struct Ray {
   Vec3 point, normal;
@@ -264,7 +277,11 @@ ProgramStock replay_program(const Tool& tool, const Path& path, const std::vecto
   out.report.before_mm3 = replay.before_mm3;
   out.report.left_mm3 = replay.after_mm3;
   add_strips(replay, out.report);
-  for (const verify::StripReplay& strip : replay.strips) out.engagement.push_back(engagement_of(strip));
+  for (const verify::StripReplay& strip : replay.strips) {
+    out.engagement.push_back(engagement_of(strip));
+    out.arcs.strips.push_back(arcs_of(strip));
+  }
+  out.arcs.heights = replay.heights;
   look_along(rays_from(tool, path, blank, stock, faces, options.tolerance_mm), stock, out.report);
   if (options.most_triangles > 0.0)
     out.left = verify::stock_mesh(stock, verify::stride_for(stock, options.most_triangles));

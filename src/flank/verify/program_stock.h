@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "flank/judge.h"
+#include "flank/path/engaged_arcs.h"
 #include "flank/path/half_space.h"
 
 namespace flank::internal {
@@ -20,6 +21,7 @@ struct ProgramStock {
   StockReport report;
   /// Of every pose of every strip: the largest engagement along the flank, radians, to 1e-4. Beside resolution_deg.
   std::vector<std::vector<double>> engagement;
+  PathArcs arcs;      ///< of every circle of the flank that was looked at
   TriangleMesh left;  ///< closed; empty if none was asked for
 };
 

@@ -67,6 +67,29 @@ TEST(StockReplay, EngagementOfACutBesideASlotIsTheClosedForm) {
   }
 }
 
+TEST(StockReplay, KeepsWhereEveryCircleEntersAndLeaves) {
+  const double radius = 4.0, step = 1.5;
+  DexelStock stock(box_of({-20.0, -12.0, 2.5}, {20.0, 12.0, 10.0}), {}, 0.1);
+  const Path path{
+      {straight({-30.0, 0.0, 0.0}, {30.0, 0.0, 0.0}, 61), straight({-10.0, step, 0.0}, {10.0, step, 0.0}, 41)}};
+  const StockReplay done = replay(stock, cylinder(radius, 10.0), path, {.circles = 5});
+  EXPECT_EQ(done.heights, (std::vector<double>{0.0, 2.5, 5.0, 7.5, 10.0}));
+  const auto at = [&](std::size_t strip, int ring) -> std::vector<EngagedArc> {
+    std::vector<EngagedArc> arcs;
+    for (const EngagedArc& arc : done.strips[strip].poses[20].arcs)
+      if (arc.ring == ring) arcs.push_back(arc);
+    return arcs;
+  };
+  EXPECT_TRUE(at(0, 0).empty()) << "below the stock";
+  ASSERT_EQ(at(0, 2).size(), 1u);
+  EXPECT_NEAR(at(0, 2)[0].from / kDegree, -90.0, 1.0);
+  EXPECT_NEAR(at(0, 2)[0].to / kDegree, 90.0, 1.0);
+  // The slot is on the right; what is left of the wall on the left is met from its edge to where the circle goes no farther out.
+  ASSERT_EQ(at(1, 2).size(), 1u);
+  EXPECT_NEAR(at(1, 2)[0].from / kDegree, std::asin((radius - step) / radius) / kDegree, 1.0);
+  EXPECT_NEAR(at(1, 2)[0].to / kDegree, 90.0, 1.0);
+}
+
 TEST(StockReplay, EngagementOnAnArcIsTheClosedForm) {
   const double radius = 4.0, length = 12.0, way = 9.0;
   for (const double step : {0.5, 1.2}) {

@@ -15,7 +15,8 @@ constexpr std::array<double, 5> kNodes = {-0.9061798459386640, -0.53846931010568
                                           0.9061798459386640};
 constexpr std::array<double, 5> kWeights = {0.2369268850561891, 0.4786286704993665, 0.5688888888888889,
                                             0.4786286704993665, 0.2369268850561891};
-constexpr double kArc = 0.25;  ///< rad of azimuth in one step of the quadrature
+constexpr double kJustInside = 1e-9;  ///< rad: an edge that leaves an arc has left it
+constexpr double kArc = 0.25;         ///< rad of azimuth in one step of the quadrature
 
 /// Integral over [low, high] in equal steps.
 template <class Value, class Function>
@@ -62,11 +63,17 @@ struct Lag {
 std::vector<Lag> lags_of(const RotatingCutter& cutter) {
   std::vector<Lag> lags;
   double lag = 0.0;
+  const CutterRing* before = nullptr;
   for (const CutterRing& ring : cutter.rings) {
+    // The same ring once more, with another arc.
+    if (before != nullptr && before->low == ring.low) {
+      lags.push_back(lags.back());
+      continue;
+    }
+    if (before != nullptr) lag += lags.back().slope * (before->high.x() - before->low.x());
     const double rho = 0.5 * (ring.low.y() + ring.high.y());
-    const double slope = rho > 0.0 ? std::tan(cutter.helix) / rho : 0.0;
-    lags.push_back({lag, slope});
-    lag += slope * (ring.high.x() - ring.low.x());
+    lags.push_back({lag, rho > 0.0 ? std::tan(cutter.helix) / rho : 0.0});
+    before = &ring;
   }
   return lags;
 }
@@ -99,6 +106,16 @@ Load tooth_load(const RotatingCutter& cutter, const CutterMotion& motion, const 
   return sum;
 }
 
+/// On a ring's arc, in the middle of its height: where the cutter goes, or as near to that as the arc comes; within [entry, exit].
+double thickest_azimuth(const RotatingCutter& cutter, const CutterMotion& motion, const CutterRing& ring) {
+  const double z = 0.5 * (ring.low.x() + ring.high.x());
+  const Vec3 velocity = motion.velocity + z * motion.velocity_by_z;
+  const double forward = behind_entry(std::atan2(velocity.y(), velocity.x()), ring.entry);
+  if (forward <= ring.exit - ring.entry) return ring.entry + forward;
+  const auto at = [&](double azimuth) { return chip_thickness(cutter, motion, ring, z, azimuth); };
+  return at(ring.entry) > at(ring.exit) ? ring.entry : ring.exit;
+}
+
 CuttingLoad as_load(const Load& sum) { return {sum.head<3>(), sum[3]}; }
 
 }  // namespace
@@ -111,14 +128,70 @@ double chip_thickness(const RotatingCutter& cutter, const CutterMotion& motion, 
          (cutter.teeth * cutter.turns_per_second);
 }
 
+double thickest_chip(const RotatingCutter& cutter, const CutterMotion& motion, const CutterRing& ring) {
+  if (!(ring.exit > ring.entry)) return 0.0;
+  return chip_thickness(cutter, motion, ring, 0.5 * (ring.low.x() + ring.high.x()),
+                        thickest_azimuth(cutter, motion, ring));
+}
+
+double lag_at(const RotatingCutter& cutter, double z) {
+  const std::vector<Lag> lags = lags_of(cutter);
+  double lag = 0.0;
+  for (std::size_t k = 0; k < lags.size(); ++k)
+    if (cutter.rings[k].low.x() <= z) lag = lags[k].at_low + lags[k].slope * (z - cutter.rings[k].low.x());
+  return lag;
+}
+
+std::optional<double> nearest_engaged(const RotatingCutter& cutter, double z, double wanted, double most) {
+  std::optional<double> nearest;
+  double off = most;
+  for (const CutterRing& ring : cutter.rings) {
+    if (!(ring.exit > ring.entry) || z < ring.low.x() || z > ring.high.x()) continue;
+    const double arc = ring.exit - ring.entry, inside = std::min(kJustInside, 0.5 * arc),
+                 behind = behind_entry(wanted, ring.entry);
+    const double past_exit = behind - arc, before_entry = kTurn - behind;
+    const double away = std::max(0.0, std::min(past_exit, before_entry));
+    if (away > off) continue;
+    off = away;
+    const bool at_entry = past_exit > 0.0 && before_entry < past_exit;
+    nearest = ring.entry + std::clamp(at_entry ? 0.0 : behind, inside, arc - inside);
+  }
+  return nearest;
+}
+
+std::vector<double> peak_phases(const RotatingCutter& cutter, const CutterMotion& motion, int even) {
+  std::vector<double> phases;
+  for (int k = 0; k < even; ++k) phases.push_back(kTurn * k / (even * cutter.teeth));
+  const std::vector<Lag> lags = lags_of(cutter);
+  for (std::size_t k = 0; k < cutter.rings.size(); ++k) {
+    const CutterRing& ring = cutter.rings[k];
+    if (!(ring.exit > ring.entry)) continue;
+    const double inside = std::min(kJustInside, 0.5 * (ring.exit - ring.entry)),
+                 azimuth = std::clamp(thickest_azimuth(cutter, motion, ring), ring.entry + inside, ring.exit - inside);
+    phases.push_back(azimuth + lags[k].at_low + 0.5 * lags[k].slope * (ring.high.x() - ring.low.x()));
+  }
+  return phases;
+}
+
+std::vector<CuttingLoad> ring_loads(const RotatingCutter& cutter, const CutterMotion& motion,
+                                    const ForceCoefficients& coefficients, double phase) {
+  const std::vector<Lag> lags = lags_of(cutter);
+  std::vector<CuttingLoad> loads;
+  for (std::size_t k = 0; k < cutter.rings.size(); ++k) {
+    Load sum = Load::Zero();
+    for (int tooth = 0; tooth < cutter.teeth; ++tooth)
+      sum += tooth_load(cutter, motion, coefficients, cutter.rings[k], lags[k], phase + kTurn * tooth / cutter.teeth);
+    loads.push_back(as_load(sum));
+  }
+  return loads;
+}
+
 CuttingLoad load_at(const RotatingCutter& cutter, const CutterMotion& motion, const ForceCoefficients& coefficients,
                     double phase) {
-  const std::vector<Lag> lags = lags_of(cutter);
-  Load sum = Load::Zero();
-  for (int tooth = 0; tooth < cutter.teeth; ++tooth)
-    for (std::size_t k = 0; k < cutter.rings.size(); ++k)
-      sum += tooth_load(cutter, motion, coefficients, cutter.rings[k], lags[k], phase + kTurn * tooth / cutter.teeth);
-  return as_load(sum);
+  CuttingLoad sum;
+  for (const CuttingLoad& ring : ring_loads(cutter, motion, coefficients, phase))
+    sum.force += ring.force, sum.torque_nmm += ring.torque_nmm;
+  return sum;
 }
 
 CuttingLoad mean_load(const RotatingCutter& cutter, const CutterMotion& motion, const ForceCoefficients& coefficients) {
@@ -139,17 +212,15 @@ double mean_power_w(const RotatingCutter& cutter, const CuttingLoad& mean) {
 }
 
 PeakLoad peak_load(const RotatingCutter& cutter, const CutterMotion& motion, const ForceCoefficients& coefficients,
-                   int phases) {
+                   int even) {
   PeakLoad peak;
-  for (int k = 0; k < phases; ++k) {
-    const CuttingLoad load = load_at(cutter, motion, coefficients, kTurn * k / (phases * cutter.teeth));
+  for (const double phase : peak_phases(cutter, motion, even)) {
+    const CuttingLoad load = load_at(cutter, motion, coefficients, phase);
     peak.force_n = std::max(peak.force_n, load.force.norm());
     peak.torque_nmm = std::max(peak.torque_nmm, load.torque_nmm);
   }
   for (const CutterRing& ring : cutter.rings)
-    for (int k = 0; k <= phases && ring.exit > ring.entry; ++k)
-      peak.chip_mm = std::max(peak.chip_mm, chip_thickness(cutter, motion, ring, 0.5 * (ring.low.x() + ring.high.x()),
-                                                           ring.entry + (ring.exit - ring.entry) * k / phases));
+    peak.chip_mm = std::max(peak.chip_mm, thickest_chip(cutter, motion, ring));
   return peak;
 }
 

@@ -23,6 +23,7 @@
 #include "flank/pipeline/folder/judge_job.h"
 #include "flank/pipeline/folder/judge_program.h"
 #include "flank/pipeline/folder/judge_roughing.h"
+#include "flank/pipeline/load/bending.h"
 #include "flank/results/acceptance.h"
 #include "flank/results/verify_json.h"
 #include "flank/results/view.h"
@@ -85,9 +86,13 @@ void write_verdict(ResultFolder& folder, const PartStamp& part, const std::map<s
 }
 
 /// The program of a cavity in the stock that blank.json describes: its engagement, pose by pose. Other jobs have none.
+struct FolderStock {
+  PathEngagement engagement;
+  PathArcs arcs;
+};
 template <class Job>
-PathEngagement replay_stock(const Job& job, const Setup& setup, const Tool& tool, const Path& path,
-                            const std::string& file, Verification& outcome) {
+FolderStock replay_stock(const Job& job, const Setup& setup, const Tool& tool, const Path& path,
+                         const std::string& file, Verification& outcome) {
   if constexpr (std::is_same_v<Job, TrochoidJob>) {
     if (!std::filesystem::exists(file)) {
       outcome.notes.push_back("no blank.json: no stock simulation");
@@ -95,7 +100,7 @@ PathEngagement replay_stock(const Job& job, const Setup& setup, const Tool& tool
     }
     ProgramStock stock = judge_stock(setup, job, tool, path, blank_from_json(read_file(file), file), 0.0);
     outcome.report.stock = std::move(stock.report);
-    return std::move(stock.engagement);
+    return {std::move(stock.engagement), std::move(stock.arcs)};
   }
   return {};
 }
@@ -144,7 +149,12 @@ Verification judge_path(const VerifyJob& request, const Job& job, const std::str
   outcome.report = judge_job(setup, job.judge, tool, path);
   const ClearanceScene scene = make_clearance_scene(setup, job.obstacles, has_body(tool), outcome.notes);
   measure_bodies(scene, tool, path, outcome.report);
-  const PathEngagement engagement = replay_stock(job, setup, tool, path, file("blank.json"), outcome);
+  const FolderStock stock = replay_stock(job, setup, tool, path, file("blank.json"), outcome);
+  if (request.bending.on)
+    for (std::string& note :
+         bending_notes(request.bending, stock.arcs, setup, tool, SweptVolume(judged_tool(setup, tool), path), path,
+                       coarse_spacing(setup, kMostBent)))
+      outcome.notes.push_back(std::move(note));
   outcome.acceptance = accept(tool, outcome.report, job.judge);
   accept_program(job, outcome);
   const BendRadii bends =
@@ -154,7 +164,7 @@ Verification judge_path(const VerifyJob& request, const Job& job, const std::str
   std::map<std::string, std::string> files{
       {"verify.json", verify_to_json(outcome.report, outcome.acceptance)},
       {"view.json", view_to_json(make_view(outcome.job, setup, tool, path, outcome.report))}};
-  if (!engagement.empty()) files["engagement.json"] = engagement_to_json(engagement);
+  if (!stock.engagement.empty()) files["engagement.json"] = engagement_to_json(stock.engagement, stock.arcs);
   write_verdict(folder, {absolute(request.part ? *request.part : named), setup.part.sha256}, files, outcome);
   return outcome;
 }
@@ -180,6 +190,7 @@ namespace flank {
 
 Verification run_verify(const VerifyJob& request) {
   internal::check_fields(request);
+  internal::require_bending(request.bending);
   if (request.nc.file) return internal::judge_program(request);
   if (!request.more_folders.empty())
     throw UsageError("more_folders",

@@ -59,14 +59,13 @@ Lead lead_of(const StripEnd& end, std::size_t k, double lift_mm) {
   const Vec3& axis = end.contact.axis;
   const Vec3 side = axis.unitOrthogonal(), other = axis.cross(side);
   const double angle = 2.0 * std::numbers::pi * static_cast<double>(way % kDirections) / kDirections;
-  const Vec3 off = std::cos(angle) * side + std::sin(angle) * other;
-  Lead lead{kShares[way / kDirections] * lift_mm * off, Vec3::Zero()};
-  if (!arc) return lead;
-  constexpr double kAcross = 0.5;  // of the motion across `off`: an arc away from where it was going is no tangent one
-  const Vec3 along = end.going - off.dot(end.going) * off;
-  if (!(along.norm() > kAcross * end.going.norm())) return {};
-  lead.along = along.normalized();
-  return lead;
+  Vec3 off = std::cos(angle) * side + std::sin(angle) * other;
+  const double lift = kShares[way / kDirections] * lift_mm;
+  if (!arc) return {lift * off};
+  constexpr double kAcross = 0.5;  // of `off` across the motion: an arc away from where it was going is no tangent one
+  off -= off.dot(end.going) * end.going;
+  if (end.going.isZero() || !(off.norm() > kAcross)) return {};
+  return {lift * off.normalized(), end.motion};
 }
 
 /// Those that there are, the best first.
@@ -90,7 +89,7 @@ std::vector<Vec3> directions_of(const StripEnd& end) {
   constexpr int kLeans = 6, kRound = 12;
   const Vec3& axis = end.contact.axis;
   Vec3 forward = end.going - axis.dot(end.going) * axis;
-  if (!(forward.norm() > 1e-9 * end.going.norm()) || end.going.isZero()) forward = axis.unitOrthogonal();
+  if (!(forward.norm() > 1e-9)) forward = axis.unitOrthogonal();
   forward.normalize();
   const Vec3 side = axis.cross(forward);
   std::vector<Vec3> directions;
@@ -112,13 +111,18 @@ double length_of(const std::vector<Pose>& way) {
 /// Beginning and end of each strip, at both of which the tool goes on past it: at the beginning backwards.
 std::vector<StripEnd> ends_of(const Path& path, double axis_length) {
   std::vector<StripEnd> ends;
-  const auto middle = [&](const Pose& p) { return p.at(0.5 * axis_length); };
+  const auto end_of = [&](const Pose& last, const Pose& before) {
+    const PoseVelocity step{last.tip - before.tip, last.axis - before.axis};
+    const Vec3 middle = step.at(0.5 * axis_length);
+    const double way = middle.norm();
+    return way > 0.0 ? StripEnd{last, {step.tip / way, step.axis / way}, middle / way} : StripEnd{last};
+  };
   for (const Strip& strip : path.strips) {
     const std::vector<Pose>& poses = strip.poses;
     const Pose &second = poses[std::min<std::size_t>(1, poses.size() - 1)],
                &before = poses[poses.size() > 1 ? poses.size() - 2 : 0];
-    ends.push_back({poses.front(), middle(poses.front()) - middle(second)});
-    ends.push_back({poses.back(), middle(poses.back()) - middle(before)});
+    ends.push_back(end_of(poses.front(), second));
+    ends.push_back(end_of(poses.back(), before));
   }
   return ends;
 }
@@ -152,7 +156,7 @@ LeadSearch::LeadSearch(const Tool& tool, const Path& strips, const std::vector<F
   parallel_for(distances.size(), [&](std::size_t i) {
     const StripEnd& end = ends_[i / kWays];
     const Lead lead = lead_of(end, i % kWays, lift_mm);
-    const bool no_arc = i % kWays >= kStraight && lead.along.isZero();
+    const bool no_arc = i % kWays >= kStraight && !lead.is_arc();
     distances[i] = no_arc ? kNoWay : least_on_way(tool_, end, lead, samples_, links_, 2.0 * lift_mm_);
   });
   for (std::size_t e = 0; e < ends_.size(); ++e) {

@@ -11,7 +11,8 @@ namespace flank::internal {
 /// An end of a strip: where the tool touches last, and which way it was going.
 struct StripEnd {
   Pose contact;
-  Vec3 going = Vec3::Zero();  ///< any length; of the axis' middle, past the end
+  PoseVelocity motion = {};   ///< past the end, for every mm of the axis' middle
+  Vec3 going = Vec3::Zero();  ///< unit vector: that of the middle; zero: it stands
 };
 
 /// Ways out for each end of each strip (beginning, end, beginning, ...), the best first:

@@ -16,6 +16,8 @@
 #include "flank/machine/links.h"
 #include "flank/path_file.h"
 #include "flank/pipeline/folder/folder_job.h"
+#include "flank/pipeline/load/known_feeds.h"
+#include "flank/pipeline/load/path_loads.h"
 #include "flank/setup/read_setup.h"
 
 namespace flank::internal {
@@ -25,11 +27,10 @@ struct Input {
   Setup setup;
   Tool tool;
   Path path;
-  PathEngagement engagement;  ///< of each pose; empty lists where it is not known
+  FolderEngagement engagement;
   ObstacleRequest obstacles;
   JudgeRequest judge;
-  bool fixed_order = false;     ///< of the path's strips
-  double engagement_rad = 0.0;  ///< the limit of a cavity's cycles; 0: no cavity
+  bool fixed_order = false;  ///< of the path's strips
 };
 
 template <class Job>
@@ -38,15 +39,17 @@ Input read_input(const PostJob& request, const Job& job, const ResultFolder& fol
   Input input;
   input.tool = read_and_equip(file("tool.json"), {}, job.obstacles);
   input.path = read_path(file("path.json"));
-  input.engagement.resize(input.path.strips.size());
-  if (std::filesystem::exists(file("engagement.json")))
-    input.engagement = engagement_from_json(read_file(file("engagement.json")), file("engagement.json"), input.path);
+  if (std::filesystem::exists(file("engagement.json"))) {
+    const std::string text = read_file(file("engagement.json"));
+    input.engagement.largest = engagement_from_json(text, file("engagement.json"), input.path);
+    input.engagement.arcs = arcs_from_json(text, file("engagement.json"), input.path);
+  }
   input.setup = read_setup(machined(job), job.obstacles, job.tolerance_mm, notes);
   input.obstacles = job.obstacles;
   input.judge = job.judge;
   input.fixed_order = std::is_same_v<Job, TrochoidJob>;
   if constexpr (std::is_same_v<Job, TrochoidJob>)
-    input.engagement_rad = job.cycles.most_engagement_deg * std::numbers::pi / 180.0;
+    input.engagement.limit_rad = job.cycles.most_engagement_deg * std::numbers::pi / 180.0;
   notes.clear();  // told when the folder was made
   if (folder.manifest() && !request.part && input.setup.part.sha256 != folder.manifest()->part.sha256)
     throw InputError(input.setup.part.file + ": has changed since the result in " + folder.path() +
@@ -55,11 +58,10 @@ Input read_input(const PostJob& request, const Job& job, const ResultFolder& fol
 }
 
 PostTool post_tool(const Tool& tool) {
-  PostTool facts{.name = tool.name, .axis_length = tool.radial.axis_length(), .tip_radius = tool.radial.at(0.0).r};
-  constexpr int kLooks = 200;
-  for (int k = 0; k <= kLooks; ++k)
-    facts.largest_radius = std::max(facts.largest_radius, tool.radial.at(facts.axis_length * k / kLooks).r);
-  return facts;
+  return {.name = tool.name,
+          .axis_length = tool.radial.axis_length(),
+          .tip_radius = tool.radial.at(0.0).r,
+          .largest_radius = 0.5 * largest_diameter(tool)};
 }
 
 /// Of all that could touch: flank, shank and holder.
@@ -71,8 +73,8 @@ double body_radius(const Tool& tool, const PostTool& facts) {
 }
 
 /// The strips in the order in which they are run. Cycles of a cavity need what the ones before them have cut.
-KnownPath in_order(const Input& input, const Box3& around, const PostJob& request) {
-  KnownPath path = joined({input.path, input.engagement});
+KnownPath in_order(const Input& input, const KnownFeeds& feeds, const Box3& around, const PostJob& request) {
+  KnownPath path = joined({input.path, feeds.slowness});
   if (input.fixed_order || request.order == "given") return path;
   KnownPath ordered;
   for (const std::size_t k : short_order(path.path, around)) {
@@ -126,6 +128,7 @@ void require_cutting_data(const PostJob& request) {
     return;
   }
   if (request.flutes) throw UsageError("flutes", "needs a `material`");
+  refuse_loads(request);
   if (!request.spindle_rpm || (!request.feed_mm_min && request.speed != "optimal"))
     throw UsageError(
         fmt::format("a program needs spindle speed and feed; give {}{}{}, or `dry` for a dry run",
@@ -158,11 +161,12 @@ PlannedOperation plan_operation(const PostJob& asked, const OperationWords& word
   plan.tool_number = words.tool.value_or(1);
   plan.tool_text = read_file((std::filesystem::path(asked.folder) / "tool.json").string());
   plan.strips = input.path.strips.size();
-  plan.engagement_rad = input.engagement_rad;
-  plan.engagement_known = !input.engagement.empty() && !input.engagement.front().empty();
+  const KnownFeeds feeds = known_feeds(plan.request, input.setup, input.tool, input.path, input.engagement);
+  plan.feed = feeds.feed;
+  plan.notes.insert(plan.notes.end(), feeds.notes.begin(), feeds.notes.end());
   plan.way = link_options(input, plan.facts, plan.request);
-  plan.links = judged_links(input.setup, input.judge, input.tool, in_order(input, plan.way.keep_out, plan.request),
-                            plan.way, plan.request.lift_mm);
+  plan.links = judged_links(input.setup, input.judge, input.tool,
+                            in_order(input, feeds, plan.way.keep_out, plan.request), plan.way, plan.request.lift_mm);
   plan.setup = std::move(input.setup);
   plan.tool = std::move(input.tool);
   plan.obstacles = std::move(input.obstacles);

@@ -27,10 +27,9 @@ struct PlannedOperation {
   PostTool facts;
   std::size_t strips = 0;  ///< of the path
   ObstacleRequest obstacles;
-  double engagement_rad = 0.0;  ///< the limit of a cavity's cycles; 0: no cavity
-  bool engagement_known = false;
-  LinkOptions way;  ///< of the links
-  JudgedLinks links;
+  double feed = 0.0;  ///< mm/s, where nothing is known of the load
+  LinkOptions way;    ///< of the links
+  JudgedLinks links;  ///< known of them: the least time for a mm, s
   std::vector<std::string> notes;
 };
 

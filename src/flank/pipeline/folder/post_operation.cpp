@@ -24,11 +24,6 @@ namespace {
 constexpr double kDeviationShare = 0.005;
 /// Steps of a program are not worth less than this, mm.
 constexpr double kLeastDeviation = 1e-6;
-/// Where little is engaged the feed is so much faster at most: beyond, runout and the stock's own resolution of a few
-/// degrees count for more than the chip. At a limit of 60 degrees it is reached at 17.
-constexpr double kMostFeedFactor = 3.0;
-/// Of a dry run, mm/min, unless another one is given.
-constexpr double kDryFeed = 1000.0;
 /// Of the tolerance: what chords and digits of a program may add to a path that uses up all of it. As much lies outside of the
 /// budget that planner and judge share; beyond it there must be room below the tolerance.
 constexpr double kOutsideShare = 0.02;
@@ -47,26 +42,6 @@ void accept_links(const PlannedOperation& plan, PostOutcome& outcome) {
   const ClearanceScene scene = make_clearance_scene(plan.setup, plan.obstacles, has_body(plan.tool), outcome.notes);
   if (!measure_clearance(scene, plan.tool, plan.links.links()).kept())
     add_reason(outcome.acceptance, Figure::kClearance, "shank, holder or a fixture comes too close on a link");
-}
-
-/// A cavity's cycles are planned for a limit of the engagement: there the feed is what was asked for.
-EngagementFeed feed_rule(const PlannedOperation& plan, PostOutcome& outcome) {
-  const PostJob& request = plan.request;
-  const double feed = request.feed_mm_min.value_or(kDryFeed);
-  EngagementFeed rule{.feed = feed / 60.0};
-  rule.most_feed = request.most_feed_mm_min.value_or(kMostFeedFactor * feed) / 60.0;
-  if (request.speed != "feed" || !(plan.engagement_rad > 0.0)) return rule;
-  if (!plan.engagement_known) {
-    outcome.notes.push_back("no engagement.json (flank verify writes it): the feed is the same everywhere");
-    return rule;
-  }
-  rule.reference = plan.engagement_rad;
-  outcome.notes.push_back(
-      fmt::format("the feed follows the engagement: its thickest chip is that of {:g} mm/min at {:g} degrees, the feed "
-                  "at most {:g} "
-                  "mm/min",
-                  feed, plan.engagement_rad * 180.0 / std::numbers::pi, 60.0 * rule.most_feed));
-  return rule;
 }
 
 /// The whole motion, links included, with table and head, where the machine's file says what they look like.
@@ -137,8 +112,8 @@ void fill(const Machine& machine, const Post& result, PostOutcome& outcome) {
   outcome.deviation_mm = result.deviation_mm;
   outcome.rounding_mm = result.rounding_mm;
   outcome.least_tilt_deg = std::asin(std::min(1.0, result.least_sine)) * 180.0 / std::numbers::pi;
-  outcome.minutes = result.time_s / 60.0;
-  outcome.cutting_minutes = result.cutting_s / 60.0;
+  outcome.minutes = result.resting_s.value_or(result.time_s) / 60.0;
+  outcome.cutting_minutes = (result.resting_s ? result.resting_cutting_s : result.cutting_s) / 60.0;
   for (std::size_t k = 0; k < result.use.size(); ++k) {
     const JointUse& use = result.use[k];
     outcome.joints.push_back({use.name, machine.joints[k].kind == JointKind::kRotary ? "deg" : "mm", use.low, use.high,
@@ -161,13 +136,13 @@ Path turned_path(const Machine& machine, const PlannedOperation& plan, const Wor
   return upright(copy.copy > 1 ? turned(linked, turn) : linked, way, up);
 }
 
-PostOptions options_of(const PlannedOperation& plan, const WorkSetup& place, PostOutcome& outcome) {
+PostOptions options_of(const PlannedOperation& plan, const WorkSetup& place) {
   PostOptions options;
   options.setup = place;
   options.deviation =
       std::max(kLeastDeviation, plan.request.deviation_mm.value_or(kDeviationShare * plan.setup.tolerance_mm));
-  options.feed = feed_rule(plan, outcome);
-  options.engagement = plan.links.linked.known;
+  options.feed = plan.feed;
+  options.slowness = plan.links.linked.known;
   options.time_optimal = plan.request.speed == "optimal";
   return options;
 }
@@ -196,8 +171,7 @@ PostOutcome post_operation(const Machine& machine, const PlannedOperation& plan,
                            const CopyOf& copy, NcProgram& program) {
   PostOutcome outcome;
   if (copy.copy == 1) outcome.notes = plan.notes;
-  const PostOptions options = options_of(plan, place, outcome);
-  if (copy.copy > 1) outcome.notes.clear();
+  const PostOptions options = options_of(plan, place);
   outcome.machine = machine.name;
   outcome.nesting = machine.nesting();
   outcome.setup = setup_text(place);
@@ -205,6 +179,10 @@ PostOutcome post_operation(const Machine& machine, const PlannedOperation& plan,
   Post result = post(machine, turned_path(machine, plan, place, copy), plan.facts, options);
   if (result.unreachable) refuse(result, outcome);
   fill(machine, result, outcome);
+  if (copy.copy == 1 && result.resting_s)
+    outcome.notes.emplace_back(
+        "LinuxCNC comes to rest at the end of every block while rotary axes may turn, and the times are those of that; "
+        "a larger --deviation makes longer blocks");
   if (copy.copy == 1) accept_links(plan, outcome);
   MachineScene scene = machine_scene(machine, plan.tool, tip_offset(machine, plan.facts));
   add_work(plan.setup, plan.obstacles, place, scene);

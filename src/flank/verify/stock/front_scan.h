@@ -1,15 +1,13 @@
 /// The engagement angle of a tool in a tri-dexel stock, by scanning the front of its contact circles (MATH section 10).
 #pragma once
 
+#include <vector>
+
+#include "flank/path/engaged_arcs.h"
+#include "flank/path/pose_velocity.h"
 #include "flank/verify/stock/dexel_stock.h"
 
 namespace flank::internal::verify {
-
-/// How the axis moves at a pose: per mm of way, or in any other measure of time.
-struct PoseVelocity {
-  Vec3 tip = Vec3::Zero(), axis = Vec3::Zero();
-  [[nodiscard]] Vec3 at(double s) const { return tip + s * axis; }
-};
 
 /// A tool on its way through a stock. What it took last is not cut from the stock yet: the front would lie in the surface
 /// that it has just made, and there no stock of lines can tell one side from the other. A few cells farther on it can.
@@ -30,15 +28,20 @@ class FrontScan {
   /// `count` (>= 2) circles at equal steps of s, both ends of the axis among them.
   FrontScan(const RadialFunction& radial, int count);
 
-  struct Largest {
-    double angle_rad = 0.0, s = 0.0;
+  struct Seen {
+    double angle_rad = 0.0, s = 0.0;  ///< the largest of the circles, and where
+    std::vector<EngagedArc> arcs;     ///< of all circles
   };
-  /// The largest over the circles: the measure of the front that lies in the stock and in no late pose.
-  [[nodiscard]] Largest largest(const DexelStock& stock, const MovingTool& tool) const;
-  /// Of the circle of s, in [0, L], mm.
-  [[nodiscard]] double angle(const DexelStock& stock, const MovingTool& tool, double s) const;
+  /// What of the front lies in the stock and in no late pose.
+  [[nodiscard]] Seen look(const DexelStock& stock, const MovingTool& tool) const;
+  /// s of the circles, mm.
+  [[nodiscard]] std::vector<double> heights() const;
 
  private:
+  [[nodiscard]] double height(int ring) const { return radial_.axis_length() * ring / (count_ - 1); }
+  /// Of a circle: appended to `arcs`, and their sum.
+  double add_arcs(const DexelStock& stock, const MovingTool& tool, int ring, std::vector<EngagedArc>& arcs) const;
+
   RadialFunction radial_;
   int count_;
 };

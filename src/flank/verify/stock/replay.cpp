@@ -18,11 +18,6 @@ PoseVelocity between(const PoseVelocity& a, const PoseVelocity& b, double x) {
   return {a.tip + x * (b.tip - a.tip), a.axis + x * (b.axis - a.axis)};
 }
 
-/// How far any point of the axis goes, mm.
-double way_between(const Pose& a, const Pose& b, double length) {
-  return std::max((b.tip - a.tip).norm(), (b.at(length) - a.at(length)).norm());
-}
-
 /// How far the tool must have come, in cells, before what it took is cut from the stock, and at most on its way.
 constexpr double kLagCells = 4.0, kLongestLag = 3.0;
 /// Of what a late pose is to leave beside the next one, cells.
@@ -55,6 +50,7 @@ class Replayer {
         empty_(stock.empty_blocks()) {}
 
   void run(const std::vector<Strip>& strips, std::vector<StripReplay>& out);
+  [[nodiscard]] std::vector<double> heights() const { return measured_ ? scan_.heights() : std::vector<double>(); }
 
  private:
   /// Two balls `step` apart leave a scallop of step^2 / (8 r) between them.
@@ -75,7 +71,6 @@ class Replayer {
   void cut_behind(const Pose* pose, std::vector<StripReplay>& out);
   double cut(const Stretch& stretch);
   void add_lately(const Stretch& stretch);
-  [[nodiscard]] PoseVelocity velocity(const std::vector<Pose>& poses, std::size_t k) const;
   DexelStock& stock_;
   ToolSolid solid_;
   FrontScan scan_;
@@ -89,20 +84,20 @@ class Replayer {
   std::vector<EmptyBlocks> empty_;  ///< of the stock as it was at some time
 };
 
-/// Mean of both sides' directions: of a smooth motion that was joined straight it is the tangent, to second order.
-PoseVelocity Replayer::velocity(const std::vector<Pose>& poses, std::size_t k) const {
-  PoseVelocity out;
-  for (std::size_t n = std::max<std::size_t>(k, 1); n <= std::min(k + 1, poses.size() - 1); ++n) {
-    const double way = way_between(poses[n - 1], poses[n], length_);
-    if (!(way > 0.0)) continue;
-    // The shorter way tells more of the direction here.
-    const double weight = 1.0 / (way * way);
-    out.tip += weight * (poses[n].tip - poses[n - 1].tip);
-    out.axis += weight * (poses[n].axis - poses[n - 1].axis);
-  }
-  // Of one length, so that there is a mean of two.
-  const double length = std::max(out.tip.norm(), out.at(length_).norm());
-  return length > 0.0 ? PoseVelocity{out.tip / length, out.axis / length} : out;
+/// Of every ring the larger of what was and what is seen.
+void keep_larger(const std::vector<EngagedArc>& seen, std::vector<EngagedArc>& kept) {
+  const auto angle = [](const std::vector<EngagedArc>& arcs, int ring) {
+    double sum = 0.0;
+    for (const EngagedArc& arc : arcs)
+      if (arc.ring == ring) sum += arc.angle();
+    return sum;
+  };
+  std::vector<EngagedArc> out;
+  const int last = std::max(seen.empty() ? -1 : seen.back().ring, kept.empty() ? -1 : kept.back().ring);
+  for (int ring = 0; ring <= last; ++ring)
+    for (const EngagedArc& arc : angle(seen, ring) > angle(kept, ring) ? seen : kept)
+      if (arc.ring == ring) out.push_back(arc);
+  kept = std::move(out);
 }
 
 void Replayer::run(const std::vector<Strip>& strips, std::vector<StripReplay>& out) {
@@ -142,7 +137,7 @@ void Replayer::go_to(const std::vector<Pose>& poses, std::size_t k, bool passed,
   const bool measured = measured_ && poses.size() > 1 && (!passed || unmeasured_ >= apart);
   if (measured) unmeasured_ = 0.0;
   const int steps = measured ? std::max(1, static_cast<int>(std::ceil(way / apart))) : 1;
-  const PoseVelocity before = velocity(poses, k == 0 ? 0 : k - 1), after = velocity(poses, k);
+  const PoseVelocity before = velocity_at(poses, k == 0 ? 0 : k - 1, length_), after = velocity_at(poses, k, length_);
   for (int n = 1; n <= steps; ++n) {
     const double x = static_cast<double>(n) / steps;
     const Pose to = n == steps ? poses[k] : between(first, poses[k], x);
@@ -157,10 +152,11 @@ void Replayer::go_to(const std::vector<Pose>& poses, std::size_t k, bool passed,
 void Replayer::measure(const Pose& pose, const PoseVelocity& velocity, std::size_t k, StripReplay& replay) {
   lately_.clear();
   for (const Stretch& stretch : waiting_) add_lately(stretch);
-  const FrontScan::Largest largest = scan_.largest(stock_, {&solid_, pose, velocity, &lately_, grain_, &empty_});
+  const FrontScan::Seen largest = scan_.look(stock_, {&solid_, pose, velocity, &lately_, grain_, &empty_});
   PoseReplay& here = replay.poses[k];
   here.measured = true;
   if (largest.angle_rad > here.angle_rad) here.angle_rad = largest.angle_rad, here.s = largest.s;
+  keep_larger(largest.arcs, here.arcs);
   if (largest.angle_rad > replay.angle_rad) replay.angle_rad = largest.angle_rad, replay.pose = k;
 }
 
@@ -206,6 +202,7 @@ StockReplay replay(DexelStock& stock, const RadialFunction& radial, const Path& 
   out.before_mm3 = stock.volume();
   Replayer replayer(stock, radial, options);
   replayer.run(path.strips, out.strips);
+  out.heights = replayer.heights();
   out.after_mm3 = stock.volume();
   return out;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "flank/path.h"
+#include "flank/path/engaged_arcs.h"
 #include "flank/verify/stock/dexel_stock.h"
 
 namespace flank::internal::verify {
@@ -22,6 +23,8 @@ struct PoseReplay {
   double angle_rad = 0.0, s = 0.0;  ///< largest engagement of the circles, and where on the axis, mm
   double volume_mm3 = 0.0;          ///< removed on the way from the pose before
   bool measured = false;            ///< not passed over
+  /// Of each circle where most of it was engaged: from and to.
+  std::vector<EngagedArc> arcs;
 };
 
 struct StripReplay {
@@ -37,6 +40,7 @@ struct StockReplay {
   double cell_mm = 0.0;
   double before_mm3 = 0.0, after_mm3 = 0.0;
   std::vector<StripReplay> strips;
+  std::vector<double> heights;  ///< of the circles, s, mm
   /// Largest over the strips of a kind; all: an empty one. Radians.
   [[nodiscard]] double largest(const std::string& kind = "") const;
 };
