@@ -14,7 +14,7 @@
 namespace flank::internal {
 namespace {
 
-constexpr double kAllowance = 0.2, kWithin = 0.05, kCell = 0.15;
+constexpr double kAllowance = 0.2, kOffBy = 0.05, kCell = 0.15;
 
 class CavityAllowance : public TemporaryFolder {
  protected:
@@ -78,10 +78,10 @@ TEST_F(CavityAllowance, IsLeftOnItsWallsAndBeforeItsEnd) {
   EXPECT_DOUBLE_EQ(result.verify.allowance_mm, kAllowance);
   const Left left = left_on({cavity.faces[0], cavity.faces[1]}, result, 0.05);
   EXPECT_GT(left.places, 500u);
-  EXPECT_GE(left.least, kAllowance - kWithin);
-  EXPECT_LE(left.most, kAllowance + kWithin);
+  EXPECT_GE(left.least, kAllowance - kOffBy);
+  EXPECT_LE(left.most, kAllowance + kOffBy);
   // Cycles end a step before the wall across the end: more is left there, and nowhere less.
-  EXPECT_GE(nearest_to(cavity.faces[2], result), kAllowance - kWithin);
+  EXPECT_GE(nearest_to(cavity.faces[2], result), kAllowance - kOffBy);
 }
 
 }  // namespace
