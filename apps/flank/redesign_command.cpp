@@ -14,7 +14,7 @@ using namespace internal;
 
 Subcommand add_redesign(CLI::App& parser) {
   CLI::App* app = parser.add_subcommand(
-      "redesign", "Change faces as little as possible so that one pass of a tool leaves them exactly");
+      "redesign", "Change faces as little as possible so that one pass of a tool mills them exactly");
   auto job = std::make_shared<RedesignJob>();
   auto folder = std::make_shared<std::string>();
   FlagNames names = add_job_options(*app, *job);

@@ -14,7 +14,7 @@ import flank_view
 #: Properties that are fields of the command: name, kind, option, help.
 FIELDS = [
     ("Tolerance", "App::PropertyLength", "--tolerance", "Allowed deviation of the machined face, both ways; 0: by the size of the face"),
-    ("Tool", "App::PropertyString", "--tool", "free, a family with any of its parameters, or the name of a tool.json; empty: free"),
+    ("Tool", "App::PropertyString", "--tool", "free (any profile), a family with any of its parameters, or the name of a tool.json; empty: free"),
     ("AxisLength", "App::PropertyLength", "--axis-length", "Length of the tool's axis; 0: as the face needs"),
     ("ShankLength", "App::PropertyLength", "--shank-length", "Length of a cylindrical shank above the flank; 0: no shank, not checked"),
     ("Holder", "App::PropertyString", "--holder", "Holder outline as z:radius,z:radius,...; empty: no holder, not checked"),

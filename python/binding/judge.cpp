@@ -85,7 +85,7 @@ VerifyReport judge_faces(const Tool& tool, const Path& path, const Part& part, c
 
 void bind_swept(py::module_& module) {
   py::class_<SweptDistances> type(module, "SweptDistances",
-                                  "The swept distance at each of N points, and where it is taken.");
+                                  "How far N points are from the tool on its path, and where.");
   const auto column = [&](const char* name, auto member, const char* doc) {
     type.def_property_readonly(
         name,
@@ -95,15 +95,15 @@ void bind_swept(py::module_& module) {
         },
         doc);
   };
-  column("f_mm", &SweptDistance::f, "(N,), mm; negative: gouge, positive: excess material. No copy.");
+  column("f_mm", &SweptDistance::f, "(N,), mm; negative: gouge, positive: excess material. A view, not a copy.");
   column("strip", &SweptDistance::strip,
-         "(N,): index of the pass, from 0; -1: the tool is nowhere nearer than the horizon. No copy.");
+         "(N,): index of the pass, from 0; -1: the tool comes nowhere within horizon_mm. No copy.");
   column("t", &SweptDistance::t, "(N,): index of the CL point, and fraction. No copy.");
   column("s", &SweptDistance::s, "(N,), mm: arc length on the axis, in [0, L]. No copy.");
   module.def(
       "swept_distances", &swept, py::arg("tool"), py::arg("path"), py::arg("points"), py::arg("horizon_mm") = 1e300,
       "f(x) = least distance, over the whole path, from x to the tool: for N x 3 points, mm. Exact to about 1e-9 "
-      "mm below the horizon. Raises InputError for an invalid tool or invalid CL points.");
+      "mm up to horizon_mm. Raises InputError for an invalid tool or invalid CL points.");
 }
 
 void bind_report_parts(py::module_& module) {

@@ -121,7 +121,7 @@ void bind_path_classes(py::module_& module) {
       .def(
           "save", [](const Path& path, const std::filesystem::path& file) { write_path(path, file.string()); },
           py::arg("file"), "Writes a path.json, completely or not at all. Raises InputError.")
-      .def("to_json", &path_to_json, "The text of path.json; numbers read back as the same doubles.")
+      .def("to_json", &path_to_json, "The text of path.json; its numbers are read back exactly.")
       .def_static(
           "from_json", [](const std::string& text) { return path_from_json(text, "text"); }, py::arg("text"),
           "The path of a path.json's text. Raises InputError naming pass and CL point.")
@@ -163,7 +163,7 @@ void bind_path(py::module_& module) {
       module, "RuledMotion",
       "A rigid motion of the tool axis, t in [0, 1]: tip rail and direction rail, cubic B-splines.")
       .def(py::init(&make_motion), py::arg("tip_poles"), py::arg("direction_poles"), py::arg("axis_length_mm"),
-           "A motion of rails with equal knots; control points n x 3, n >= 4 (tip: mm, direction: near unit length).")
+           "A motion from control points of tip and direction, n x 3, n >= 4 (tip: mm, direction: near unit length).")
       .def_readonly("axis_length_mm", &RuledMotion::axis_length, "Length of the axis, mm.")
       .def_property_readonly(
           "tip_poles", [](const py::object& self) { return rail_view(self.cast<const RuledMotion&>().tip, self); },

@@ -169,7 +169,7 @@ void bind_tool(py::module_& module) {
   type.def(
       "save", [](const Tool& tool, const std::filesystem::path& file) { write_tool(tool, file.string()); },
       py::arg("file"), "Writes a tool.json, whole or not at all. Raises InputError.");
-  type.def("to_json", &tool_to_json, "The text of tool.json; numbers read back as the same doubles.");
+  type.def("to_json", &tool_to_json, "The text of tool.json; its numbers are read back exactly.");
   type.def_static(
       "from_json", [](const std::string& text) { return tool_from_json(text, "text"); }, py::arg("text"),
       "The tool of a tool.json's text. Raises InputError naming the key.");

@@ -18,7 +18,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 TEST_F(Cli, ARefusedSideOfACavityNamesTheFaceThatIsAcross) {
   const std::string wheel = path("wheel.step");
   ASSERT_EQ(flank({"example", "impeller", "-o", wheel}).exit_code, 0);
-  expect_refused({"trochoid", wheel, "--left", "F9", "--right", "F19", "-o", path("out")}, 3, "F11 faces F9");
+  expect_refused({"trochoid", wheel, "--left", "F9", "--right", "F19", "-o", path("out")}, 3, "F11 lies opposite F9");
   // Back to back: opposite normals, and no cavity.
   expect_refused({"trochoid", wheel, "--left", "F7", "--right", "F9", "-o", path("out")}, 3, "lies behind");
 }

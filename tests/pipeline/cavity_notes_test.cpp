@@ -146,7 +146,7 @@ TEST(CavityNotes, WhereTheSidesLeadAlongTheAxisOfStuckCyclesThatIsTold) {
     std::vector<std::string> notes;
     note_what_is_open(asked_for(), program, notes);
     return std::count_if(notes.begin(), notes.end(), [](const std::string& note) {
-      return note.find("the sides run 16 degrees off the tool's axis") != std::string::npos;
+      return note.find("the sides run only 16 degrees off the tool's axis") != std::string::npos;
     });
   };
   EXPECT_EQ(told(16.0), 1);

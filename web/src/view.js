@@ -87,7 +87,7 @@ export class View {
     const layers = [
       ['Tool', true, (on) => { this.tool.root.visible = on; }],
       // Of many strips, as of a cavity's, they would hide the part.
-      ['Axis surface', this.axis.groups.length <= MOST_AXIS_SURFACES, (on) => { this.axis.root.visible = on; }],
+      ['Swept tool axis', this.axis.groups.length <= MOST_AXIS_SURFACES, (on) => { this.axis.root.visible = on; }],
       ['Worst places', true, (on) => this.pins.show(on)],
       ...(this.fixtures.meshes.length ? [['Fixtures', true, (on) => { this.fixtures.root.visible = on; }]] : []),
     ];

@@ -83,14 +83,14 @@ std::string bound_json(const BoundResult& result) {
 }
 
 std::string bound_text(const BoundResult& result) {
-  std::string text = fmt::format("Longest contact of {} (axis {:.4g} mm) within {:.4g} mm, proved at points\n",
+  std::string text = fmt::format("Longest contact of {} (length {:.4g} mm) within {:.4g} mm, proved at each sample\n",
                                  result.tool.name.empty() ? "the tool" : result.tool.name,
                                  result.tool.radial.axis_length(), *result.job.tolerance_mm);
   for (const BoundTarget& target : result.targets) {
     const ContactMap& map = target.map;
-    text += fmt::format("  {}: {} points of {:.4g} mm2\n", target.faces, map.points.size(), map.area_mm2);
+    text += fmt::format("  {}: {} samples on {:.4g} mm2\n", target.faces, map.points.size(), map.area_mm2);
     text += fmt::format(
-        "    no position of the tool touches over more than {:.4g} mm (a tenth of the area: {:.4g}, half: {:.4g})\n",
+        "    touches over at most {:.4g} mm anywhere; on a tenth of the area at most {:.4g}, on half of it {:.4g}\n",
         quantile(map, 1.0), quantile(map, 0.1), quantile(map, 0.5));
     double found = 0.0, sum = 0.0;
     for (const MapPoint& point : map.points)
@@ -99,14 +99,14 @@ std::string bound_text(const BoundResult& result) {
         sum += point.area_mm2;
       }
     if (sum > 0.0)
-      text += fmt::format("    positions found reach {:.1f} % of these bounds on average\n", 100.0 * found / sum);
+      text += fmt::format("    the contacts found reach {:.1f} % of these limits on average\n", 100.0 * found / sum);
     if (map.blocked_mm2 > 0.0)
       text += fmt::format("    no position finishes {:.1f} % of the area\n", 100.0 * map.blocked_mm2 / map.area_mm2);
     text += fmt::format(
-        "    the contact must travel at least {:.4g} mm: at least {} pass{}, as no pass can be longer than half of the "
-        "border ({:.4g} mm)\n",
+        "    finishing it takes at least {:.4g} mm of path: {} pass{} or more, as no pass can be longer than half the "
+        "perimeter of the face ({:.4g} mm)\n",
         map.way_mm, map.strips, map.strips == 1 ? "" : "es", 0.5 * map.border_mm);
-    if (!map.complete) text += "    stopped early: the other points have no bound\n";
+    if (!map.complete) text += "    stopped early: the other samples were not examined\n";
   }
   for (const std::string& note : result.notes) text += "  note: " + note + "\n";
   return text;

@@ -155,7 +155,7 @@ std::string map_json(const PartMap& map) {
 
 std::string map_text(const PartMap& map) {
   std::string text =
-      fmt::format("What {} cannot do on {} within {:.4g} mm: face by face, by proofs at points\n",
+      fmt::format("What {} cannot do on {} within {:.4g} mm, face by face, proved at samples\n",
                   map.tool.name.empty() ? "the tool" : map.tool.name, map.part.file, *map.job.tolerance_mm);
   for (const MappedKind kind : kKinds) {
     int count = 0;

@@ -82,7 +82,7 @@ std::string error_text(const FaceError& error) {
   text +=
       fmt::format("  error {:.4f} mm rms as measured, {:.4f} after a best fit of the datum, which removes {:.1f} %\n",
                   error.rms_before_mm, error.rms_after_mm, 100.0 * taken_away(error));
-  text += fmt::format("  smooth error over the face: {:.4f} mm rms, {:.4f} at most\n", error.smooth_rms_mm,
+  text += fmt::format("  form error (noise taken out): {:.4f} mm rms, {:.4f} at most\n", error.smooth_rms_mm,
                       error.smooth_largest_mm);
   if (error.limited) text += fmt::format("  the correction is limited to {:.4f} mm\n", error.limit_mm);
   if (!error.outliers.empty()) text += fmt::format("  points left out, by number:{}\n", indices(error.outliers));

@@ -152,7 +152,7 @@ int single_face(const Setup& setup, const std::string& folder) {
   const Face& face = setup.part.faces[static_cast<std::size_t>(setup.targets.front())];
   if (!face.surface.weights.empty())
     throw UsageError("measured", folder,
-                     "the face is a rational surface; its error can be mirrored only on a polynomial one");
+                     "the face has weights (a rational surface); export it as a B-spline without weights");
   return setup.targets.front();
 }
 

@@ -84,12 +84,12 @@ std::string reason_of(const Target& target, const RadialFunction& radial, const 
   if (thinnest * concave.curvature > 1.0)
     return fmt::format(
         "the concave face needs a tool radius below {:.3g} mm at ({:.1f}, {:.1f}, {:.1f}); the smallest of this tool "
-        "is {:.3g} mm, s = {:.3g}",
+        "is {:.3g} mm, {:.3g} mm along its axis",
         1.0 / concave.curvature, concave.point.x(), concave.point.y(), concave.point.z(), thinnest,
         thinnest_at(radial));
   if (strips.empty())
     return fmt::format(
-        "no contact line of this tool's {:.3g} mm stays within {:.3g} mm of the face; use a shorter tool, or one whose "
+        "nowhere does the whole flank ({:.3g} mm) lie within {:.3g} mm of the face; use a shorter tool, or one whose "
         "profile curvature matches the face",
         radial.axis_length(), tolerance_mm);
   const auto [area, middle] = largest_gap(samples, strips);

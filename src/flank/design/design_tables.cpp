@@ -138,8 +138,8 @@ std::string design_csv(const DesignResult& result) {
 std::string design_html(const DesignResult& result) {
   const std::string part = std::filesystem::path(result.job.part.file).filename().string();
   const std::string title = html_safe("flank design: " + part);
-  std::string text = html_head(title) +
-                     fmt::format("<p>{}. The first share is of the accessible area.</p>\n", html_safe(verdict(result)));
+  std::string text = html_head(title) + fmt::format("<p>{}. The first percentage is of the accessible area.</p>\n",
+                                                    html_safe(verdict(result)));
   text += "<table>\n<tr><th></th>";
   for (std::size_t t = 0; t < result.tools.size(); ++t) {
     const DesignTool& tool = result.tools[t];

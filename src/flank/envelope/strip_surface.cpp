@@ -49,7 +49,7 @@ void add_envelope(const ExactStrip& strip, double limit, double aim, StripSurfac
 
 /// "12.5 to 100 % of its way, s 0 to 20.1 mm".
 std::string stretch_text(const Stretch& stretch, double axis_length) {
-  return fmt::format("{:.3g} to {:.3g} % of its length, s {:.4g} to {:.4g} mm", 100.0 * stretch.from_u,
+  return fmt::format("{:.3g} to {:.3g} % of its length, {:.4g} to {:.4g} mm along the tool", 100.0 * stretch.from_u,
                      100.0 * stretch.to_u, axis_length * stretch.from_v, axis_length * stretch.to_v);
 }
 

@@ -161,12 +161,12 @@ std::vector<Recipe> envelope_recipes() {
     for (int k = 1; k <= kExampleMotions; ++k)
       recipes.push_back(
           {"envelope-" + std::string(tool) + "-" + std::to_string(k),
-           "surface that is left exactly by a " + std::string(tool) + " tool, motion " + std::to_string(k),
+           "surface that can be milled exactly by a " + std::string(tool) + " tool, motion " + std::to_string(k),
            [tool, k](const ExampleOptions& options) { return single(tool, k, options); }});
   }
   for (const std::string_view tool : kExampleTools)
     recipes.push_back({"cavity-" + std::string(tool),
-                       "two facing walls that are left exactly by one " + std::string(tool) + " tool",
+                       "two facing walls that can be milled exactly by one " + std::string(tool) + " tool",
                        [tool](const ExampleOptions& options) { return cavity(tool, options); }});
   return recipes;
 }
@@ -189,8 +189,8 @@ std::vector<Recipe> all_recipes() {
        [](Options) { return solid(impeller()); }},
       {"cavity", "two facing free-form walls of a twisted channel, of any size: F1 and F2",
        [](Options options) { return channel(options.cavity); }},
-      {"deformed-envelope", "surface that is left exactly by a barrel tool, with a smooth bump", deformed},
-      {"envelope-mesh", "surface that is left exactly by a barrel tool, as a mesh",
+      {"deformed-envelope", "surface that can be milled exactly by a barrel tool, with a smooth bump", deformed},
+      {"envelope-mesh", "surface that can be milled exactly by a barrel tool, as a mesh",
        [](Options options) { return mesh(MeshFault::kNone, options); }},
       {"envelope-noisy", "the same mesh with noise", [](Options options) { return mesh(MeshFault::kNoise, options); }},
       {"envelope-holes", "the same mesh with two holes",

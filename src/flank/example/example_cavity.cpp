@@ -60,7 +60,7 @@ Face cross_wall(const CavityShape& shape, double sign) {
 
 std::vector<Face> cavity_walls(const CavityShape& shape) {
   if (!(shape.width_mm > 0.0 && shape.depth_mm > 0.0 && shape.length_mm > 0.0 && shape.hollow_mm >= 0.0))
-    throw UsageError("width, depth and length of a cavity must be above 0 mm, and its hollow at least 0 mm");
+    throw UsageError("width, depth and length of a cavity must be above 0 mm, and its hollow depth at least 0 mm");
   if (!(std::abs(shape.twist_deg) <= 60.0)) throw UsageError("the twist of a cavity must lie in [-60, 60] degrees");
   if (!(std::abs(shape.lean_deg) <= 45.0))
     throw UsageError("the lean of the walls of a cavity must lie in [-45, 45] degrees");

@@ -19,7 +19,7 @@ struct Envelope {
   const RadialFunction& radial;
   [[nodiscard]] Vec3 at(double u, double v) const {
     const ContactPoint contact = contact_point(motion, radial, v * radial.axis_length(), u, +1);
-    if (!contact.exists) throw InternalError("the envelope of an example does not exist everywhere");
+    if (!contact.exists) throw InternalError("an example has a gap in its surface");
     return contact.point;
   }
 };

@@ -47,7 +47,7 @@ Vec3 random_direction(Random& random) {
 TriangleMesh envelope_mesh(const RuledMotion& motion, const RadialFunction& radial, int count_t, int count_s) {
   TriangleMesh mesh;
   for (const ContactPoint& contact : sample_envelope(motion, radial, +1, count_t, count_s)) {
-    if (!contact.exists) throw InternalError("the envelope of an example does not exist everywhere");
+    if (!contact.exists) throw InternalError("an example has a gap in its surface");
     mesh.vertices.push_back(contact.point);
   }
   for (int i = 0; i + 1 < count_t; ++i) {

@@ -233,7 +233,7 @@ FlankFitResult search_starts(const Target& target, const ToolModel& tool, const 
   result.candidates = quick.tried;
   if (!quick.touching) {
     result.status = FitStatus::kNoStart;
-    result.message = "no straight start of the motion comes within four tolerances of the machined face";
+    result.message = "no position of the tool to start from lies within four tolerances of the machined face";
   }
   if (quick.drafts.empty()) return result;
   progress.step("polish", 0.5);

@@ -31,10 +31,11 @@ void visit_fields(Job& job, Visitor&& visit) {
                   kAny, Spelling::kFlag},
         job.map);
   visit(FieldInfo{"points", "", "",
-                  "Approximate number of points at which the longest contact is bounded; with --map on each face",
+                  "Approximate number of samples at which the longest contact is proved; with --map on each face",
                   kPoints},
         job.points);
-  visit(FieldInfo{"gap", "", "", "Stop when the bound is at most this share above the longest contact found", kGap},
+  visit(FieldInfo{"gap", "", "", "Stop when the proved limit exceeds the longest contact found by at most this share",
+                  kGap},
         job.gap);
   visit_other_faces(job, visit);
 }

@@ -32,16 +32,16 @@ void visit_fields(Job& job, Visitor&& visit) {
         job.part.faces);
   visit(FieldInfo{"side", "", "", kSideHelp, kSide, Spelling::kSign}, job.part.side);
   visit(FieldInfo{"tools", "", "",
-                  "Largest number of tools, for the fastest set of at most so many; or auto: the smallest set that "
+                  "Largest number of tools in the set, the fastest such set is taken; or auto: the smallest set that "
                   "finishes everything that can be finished",
                   kToolCount, Spelling::kAutoOrCount},
         job.tools);
   visit(FieldInfo{"source", "", "",
                   "Where tools come from: fit (found for one or several of the faces), catalogue, or both", kSource},
         job.source);
-  visit(
-      FieldInfo{"shape", "", "", "Form of fitted tools: free, or a family with any of its parameters (cone:radius=2)"},
-      job.shape);
+  visit(FieldInfo{"shape", "", "",
+                  "Form of fitted tools: free (any profile), or a family with any of its parameters (cone:radius=2)"},
+        job.shape);
   visit(FieldInfo{"tolerance", "mm", "", "Allowed deviation of all faces, both ways", kLength}, job.tolerance_mm);
   visit(FieldInfo{"axis_length", "mm", "", "Axis length of a fitted tool. Default: as its faces need", kLength},
         job.axis_length_mm);

@@ -212,8 +212,8 @@ inline constexpr std::string_view kCellHelp =
     "Grid spacing of the stock simulation. Default: by the size of the cavity";
 
 inline constexpr std::string_view kSampleHelp =
-    "Fast check at this spacing, without the proof; it passes only if no gouge deeper than the tolerance fits between "
-    "the samples. Default: samples and a proof";
+    "Fast check of samples at this spacing only; it passes if no gouge deeper than the tolerance fits between "
+    "them. Default: samples, and a proof that no place in between is cut deeper";
 
 template <class Visitor, Is<JudgeRequest> Request>
 void visit_judge(Request& judge, Visitor& visit) {
@@ -261,7 +261,8 @@ template <class Visitor, Is<FitJob> Job>
 void visit_fields(Job& job, Visitor&& visit) {
   using namespace accepted;
   visit_part(job.part, visit);
-  visit(FieldInfo{"tool", "", "", "free, a family with any of its parameters (cone:radius=2,angle=3), or a tool file",
+  visit(FieldInfo{"tool", "", "",
+                  "free (any profile), a family with any of its parameters (cone:radius=2,angle=3), or a tool file",
                   kAny, Spelling::kFileOrText},
         job.tool.spec);
   visit(FieldInfo{"tolerance", "mm", "", kToleranceHelp, kLength}, job.tolerance_mm);
@@ -330,14 +331,16 @@ void visit_fields(Job& job, Visitor&& visit) {
         job.tool.axis_length_mm);
   visit(FieldInfo{"tolerance", "mm", "", kToleranceHelp, kLength}, job.tolerance_mm);
   visit(FieldInfo{"allowance", "mm", "", kAllowanceHelp, kDistance}, job.part.allowance_mm);
-  visit(FieldInfo{"strategy", "", "", "How passes are found: grow, or curves (the published method, to compare)",
+  visit(FieldInfo{"strategy", "", "",
+                  "How passes are found: grow (extended step by step), or curves (the published method, to compare)",
                   kStrategy},
         job.strategy);
   visit(FieldInfo{"seed", "", "", "Seed of the random numbers of --strategy curves. Default: 1"}, job.seed);
   visit(FieldInfo{"seeds", "", "", "Where passes start: grid, spread evenly; shape, more where the face is curved more",
                   kSeeds},
         job.seeds);
-  visit(FieldInfo{"strips", "", "", "Largest number of passes. Default: as many as are worth --strip-price", kStrips},
+  visit(FieldInfo{"strips", "", "", "Largest number of passes. Default: until another one adds less than --strip-price",
+                  kStrips},
         job.most_strips);
   visit(FieldInfo{"strip_price", "", "", "Share of the face that another pass must add. Default: 0.005", kPrice},
         job.strip_price);
@@ -414,7 +417,7 @@ void visit_loads(Job& job, Visitor& visit) {
   visit(FieldInfo{"helix", "", kGroup, "Helix angle of the cutting edges, degrees", kHelix}, job.helix_deg);
   visit(FieldInfo{"finish_stock", "mm", kGroup,
                   "Thickness of what roughing has left on the machined faces: the feed follows the load of taking it. "
-                  "A cavity's load is in its folder",
+                  "Not needed for a cavity, whose folder holds its load",
                   kLength},
         job.finish_stock_mm);
   visit(FieldInfo{"most_force", "", kGroup, "Largest cutting force, N: the feed is slower where it would be exceeded",
@@ -492,12 +495,11 @@ void visit_fields(Job& job, Visitor&& visit) {
   visit(FieldInfo{"lift", "mm", kLinks, "Lead-in and lead-out distance from the surface, before and after each pass",
                   kLength},
         job.lift_mm);
-  visit(
-      FieldInfo{
-          "order", "", kLinks,
-          "Order of the passes: shortest (short links) or given (as in the path). Cycles of a cavity keep their order",
-          kOrder},
-      job.order);
+  visit(FieldInfo{"order", "", kLinks,
+                  "Order of the passes: shortest (short links) or given (as in the path). Trochoidal "
+                  "cycles keep their order",
+                  kOrder},
+        job.order);
 }
 
 template <class Visitor, Is<CycleRequest> Request>
@@ -543,7 +545,8 @@ void visit_fields(Job& job, Visitor&& visit) {
                   "A face at the bottom of the cavity, where the tool's tip is. Default: found from the walls, else at "
                   "the narrower end"},
         job.floor);
-  visit(FieldInfo{"tool", "", "", "free, a family with any of its parameters (cone:radius=2,angle=3), or a tool file",
+  visit(FieldInfo{"tool", "", "",
+                  "free (any profile), a family with any of its parameters (cone:radius=2,angle=3), or a tool file",
                   kAny, Spelling::kFileOrText},
         job.tool.spec);
   visit(FieldInfo{"tolerance", "mm", "", kToleranceHelp, kLength}, job.tolerance_mm);
@@ -566,7 +569,7 @@ void visit_bending(Request& bending, Visitor& visit) {
   using namespace accepted;
   constexpr std::string_view kGroup = "Bending";
   visit(FieldInfo{"bending", "", kGroup,
-                  "Say what the tool leaves when it bends, too: at the feed that flank post takes with this material",
+                  "Also report the errors with the tool bent by its load, at the feed of flank post with this material",
                   kAny, Spelling::kFlag},
         bending.on);
   visit(FieldInfo{"material", "", kGroup, "Workpiece material (share/materials); needed by --bending"},
@@ -574,10 +577,11 @@ void visit_bending(Request& bending, Visitor& visit) {
   visit(FieldInfo{"flutes", "", kGroup, "Number of the tool's cutting edges; needed by --bending", kToolNumber},
         bending.flutes);
   visit(FieldInfo{"helix", "", kGroup, "Helix angle of the cutting edges, degrees", kHelix}, bending.helix_deg);
-  visit(
-      FieldInfo{"finish_stock", "mm", kGroup,
-                "Thickness of what roughing has left on the machined faces. A cavity's load is in its folder", kLength},
-      bending.finish_stock_mm);
+  visit(FieldInfo{"finish_stock", "mm", kGroup,
+                  "Thickness of what roughing has left on the machined faces. Not needed for a cavity, whose folder "
+                  "holds its load",
+                  kLength},
+        bending.finish_stock_mm);
 }
 
 template <class Visitor, Is<VerifyJob> Job>

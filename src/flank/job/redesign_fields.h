@@ -21,7 +21,8 @@ template <class Visitor, Is<RedesignJob> Job>
 void visit_fields(Job& job, Visitor&& visit) {
   using namespace accepted;
   visit_part(job.part, visit);
-  visit(FieldInfo{"tool", "", "", "free, a family with any of its parameters (cone:radius=2,angle=3), or a tool file",
+  visit(FieldInfo{"tool", "", "",
+                  "free (any profile), a family with any of its parameters (cone:radius=2,angle=3), or a tool file",
                   kAny, Spelling::kFileOrText},
         job.tool.spec);
   visit(FieldInfo{"axis_length", "mm", "",

@@ -299,7 +299,7 @@ void Planner::stretch(FeedPlan& plan) const {
 
 FeedPlan plan_feed(const Machine& machine, std::span<const FeedNode> nodes, double rounding) {
   if (nodes.size() < 2 || !(rounding > 0.0))
-    throw InternalError("a feed needs at least two nodes and a corner tolerance > 0");
+    throw InternalError("a feed needs at least two points of the path and a corner tolerance > 0");
   return Planner(machine, nodes, rounding).run();
 }
 

@@ -254,7 +254,7 @@ void append_known(std::vector<double>& known, const std::vector<double>& next) {
 
 KnownPath joined(const KnownPath& given) {
   constexpr double kSame = 1e-9;
-  if (given.known.size() != given.path.strips.size()) throw InternalError("the values belong to other passes");
+  if (given.known.size() != given.path.strips.size()) throw InternalError("the known figures belong to other passes");
   KnownPath chains;
   for (std::size_t k = 0; k < given.path.strips.size(); ++k) {
     const Strip& strip = given.path.strips[k];
@@ -277,7 +277,7 @@ Path with_links(const Path& path, const LinkOptions& options) {
   const std::size_t count = path.strips.size();
   if (options.keep_out.empty() || !(options.clearance > 0.0) || options.lead_at_start.size() != count ||
       options.lead_at_end.size() != count)
-    throw InternalError("links need a box, a clearance and a lead for each end of a strip");
+    throw InternalError("links need a box, a clearance, and a lead-in and lead-out for each pass");
   const Linker linker(options);
   int id = 0;
   for (const Strip& strip : path.strips) id = std::max(id, strip.id);

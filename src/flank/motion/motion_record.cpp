@@ -33,7 +33,7 @@ void code(StepCodec& codec, RuledMotion& motion) {
   const bool empty = motion.tip.knots.empty() && motion.tip.count() == 0 && motion.direction.knots.empty() &&
                      motion.direction.count() == 0;
   codec.require(empty || (motion.axis_length > 0.0 && is_rail(motion.tip) && is_rail(motion.direction)),
-                "expected an axis length > 0 and two rails with clamped knots over [0, 1]");
+                "expected an axis length > 0 and curves of tip and direction with clamped knots over [0, 1]");
 }
 
 }  // namespace flank::internal

@@ -27,7 +27,7 @@ AxisJet RuledMotion::jet(double t) const {
 
 RuledMotion fit_motion(const std::vector<Pose>& poses, const std::vector<double>& t, double axis_length, int count) {
   FLANK_ASSERT(axis_length > 0.0);
-  if (poses.size() != t.size()) throw InternalError("fit_motion needs one parameter for every pose");
+  if (poses.size() != t.size()) throw InternalError("fit_motion needs one time t for every CL point");
   if (count < 4 || static_cast<int>(poses.size()) < count)
     throw InternalError("fit_motion needs at least 4 control points and at least as many poses, got " +
                         std::to_string(count) + " and " + std::to_string(poses.size()));
@@ -90,7 +90,7 @@ double accepted_step(const ChordBound& bound, double t, double step, double tole
     const double b = bound.over(t, t + step);
     if (b <= tolerance_mm) return step;
     step *= std::clamp(kSafe * std::sqrt(tolerance_mm / b), kShortest, kSafe);
-    if (step < kNoStep) throw InternalError("the direction rail vanishes near t = " + std::to_string(t));
+    if (step < kNoStep) throw InternalError("the tool axis has no direction near t = " + std::to_string(t));
   }
 }
 
@@ -147,10 +147,10 @@ void check(const RuledMotion& motion, const SamplingOptions& options) {
   if (!(options.chord_tolerance_mm > 0.0))
     throw UsageError("the chord tolerance must be positive, got " + std::to_string(options.chord_tolerance_mm) + " mm");
   if (options.minimum_poses < 2 || options.maximum_poses < options.minimum_poses)
-    throw UsageError("a path needs at least 2 poses and a maximum that is not below the minimum");
+    throw UsageError("minimum_poses must be at least 2, and maximum_poses not below it");
   if (motion.tip.degree < 2 || motion.direction.degree < 2 || !motion.tip.weights.empty() ||
       !motion.direction.weights.empty())
-    throw InternalError("sample_motion needs polynomial rails of degree 2 or more");
+    throw InternalError("sample_motion needs curves of tip and direction without weights, of degree 2 or more");
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ std::string stuck_sentence(const TrochoidJob& job, const LayerCycles& cycles) {
   if (!(refused.largest_rad > 0.0))
     return fmt::format("no step within {} degrees of engagement is free of gouges", most);
   return fmt::format(
-      "no step stays within {} degrees of engagement: the smallest excess is a step of {:.4f} mm with {:.2f}; "
+      "no step stays within {} degrees of engagement: nearest comes a step of {:.4f} mm with {:.2f} degrees; "
       "--max-engagement {:.0f} gets past this place",
       most, refused.step_mm, refused.largest_rad * kRadian, std::ceil(refused.largest_rad * kRadian + 0.5));
 }
@@ -106,7 +106,7 @@ void note_what_is_open(const TrochoidJob& job, const CavityProgram& program, std
 
 void note_no_cycles(const TrochoidJob& job, const CoverageEstimate& sides, std::vector<std::string>& notes) {
   notes.push_back(
-      fmt::format("no cycles were planned: the best side paths found finish {:.1f} % of both sides and gouge by {:.4f} "
+      fmt::format("no cycles were planned: the best passes along the sides finish {:.1f} % of both and gouge by {:.4f} "
                   "mm, by the planner's samples; required: {:.4g} % of the accessible area, and {:.4g} mm",
                   100.0 * sides.at_tolerance, std::max(sides.overcut_mm, sides.gouge_mm),
                   100.0 * job.judge.least_coverage, *job.tolerance_mm));
@@ -118,8 +118,8 @@ void note_own_reach(const TrochoidJob& job, const std::function<double()>& reach
   const double own_reach = reach();
   if (own_reach >= report.reachable_share || own_reach <= 0.0) return;
   result.notes.push_back(
-      fmt::format("this tool has radii from {:.4g} to {:.4g} mm: its flank reaches {:.1f} % of the sides between the "
-                  "other faces and finishes {:.1f} % of that; a ball of its smallest radius reaches {:.1f} %",
+      fmt::format("this tool has radii from {:.4g} to {:.4g} mm: its flank reaches {:.1f} % of the sides without "
+                  "gouging other faces, and finishes {:.1f} % of that; a ball of its smallest radius reaches {:.1f} %",
                   result.tool.radial.smallest(), result.tool.radial.largest(), 100.0 * own_reach,
                   100.0 * std::min(1.0, report.coverage / own_reach), 100.0 * report.reachable_share));
 }

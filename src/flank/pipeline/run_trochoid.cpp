@@ -201,9 +201,9 @@ void take(const CavityPlan& plan, const TrochoidJob& job, const ToolSpec& spec, 
   result.chord_bound_mm = plan.program.chord_bound_mm;
   result.plan = summary_of(job, plan.sides, plan.program, faces.width.narrowest_mm);
   if (plan.tools > 1)
-    result.notes.push_back(fmt::format(
-        "tools were tried under {} bounds of the radius, from thick to thin; this one was found under {:.4g} mm",
-        plan.tools, plan.largest_radius_mm));
+    result.notes.push_back(
+        fmt::format("{} upper limits of the radius were tried, from thick to thin; this tool was found with {:.4g} mm",
+                    plan.tools, plan.largest_radius_mm));
   note_what_is_open(job, plan.program, result.notes);
   if (plan.program.layers.empty() && legitimacy.legitimate) note_no_cycles(job, fit.after, result.notes);
 }

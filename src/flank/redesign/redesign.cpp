@@ -137,14 +137,14 @@ std::string redesign_json(const Redesign& redesign) {
 }
 
 std::string redesign_text(const Redesign& redesign) {
-  std::string text = fmt::format("Nearest surface that one pass leaves exactly, of {} {}\n", redesign.job.part.file,
+  std::string text = fmt::format("Nearest surface that one pass mills exactly, for {} {}\n", redesign.job.part.file,
                                  redesign.job.part.target_text());
   for (std::size_t k = 0; k < redesign.faces.size(); ++k) text += face_text(redesign, k);
   text += solid_line(redesign);
   const Exactness& exact = redesign.exact;
   if (exact.tolerance_mm > 0.0)
     text += fmt::format(
-        "  exact       its own tool and motion leave {:.2f} % of the new faces within {:.2g} mm (a millionth of the "
+        "  exact       its tool and motion mill {:.2f} % of the new faces to within {:.2g} mm (a millionth of the "
         "size); "
         "deepest cut {:.2g} mm, material left {:.2g} mm at most\n",
         100.0 * exact.share, exact.tolerance_mm, exact.overcut_mm, exact.left_mm);

@@ -19,7 +19,7 @@ std::string lines_of(const CoverSummary& cover, double) {
   std::string text;
   for (const TargetCover& t : cover.targets)
     text += fmt::format(
-        "  cover       {}: {} pass{} chosen from {} candidates ({} seeds, {} contact lines); estimate: {} of the "
+        "  cover       {}: {} pass{} chosen from {} candidates ({} starts, {} contact lines); estimate: {} of the "
         "accessible area finished, {} before smoothing, overlap {}; links {:.1f} mm\n",
         t.faces, t.strips, t.strips == 1 ? "" : "es", t.grown, t.seeds, t.lines, percent(t.after), percent(t.before),
         percent(t.overlap), t.links_mm);

@@ -24,7 +24,7 @@ bool holds(const std::vector<int>& faces, std::size_t face) {
 Obstacle as_obstacle(FaceTriangles face, const std::string& name, ObstacleRole role, double deviation,
                      std::vector<std::string>& notes) {
   if (face.deviation_mm > 2.0 * deviation)
-    notes.push_back(fmt::format("{}: for clearances it is triangulated within {:.3g} mm (included in the bound)", name,
+    notes.push_back(fmt::format("{}: for clearances it is triangles within {:.3g} mm; their +- contains that", name,
                                 face.deviation_mm));
   if (face.beyond_border)
     notes.push_back(

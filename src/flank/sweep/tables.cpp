@@ -133,7 +133,7 @@ std::string sweep_html(const SweepResult& result) {
   const std::string title = html_safe(fmt::format("flank sweep: {} of {}", file_name(plan.file), file_name(plan.part)));
   std::string text =
       html_head(title) +
-      fmt::format("<p>{} of {} tasks meet their request. The first share is of the accessible area.</p>\n",
+      fmt::format("<p>{} of {} tasks meet their request. The first percentage is of the accessible area.</p>\n",
                   result.count(TaskStatus::kMeets), result.rows.size());
   for (std::size_t variant = 0; variant < std::max<std::size_t>(1, plan.variants.size()); ++variant)
     text += html_table(result, variant);

@@ -26,7 +26,7 @@ double greville(int count, int i) {
 
 void require_length(double axis_length) {
   if (!(axis_length > 0.0 && std::isfinite(axis_length)))
-    throw InternalError("a radial function needs a finite axis length > 0");
+    throw InternalError("a tool profile needs a finite axis length > 0");
 }
 
 /// Least and largest of the values added.

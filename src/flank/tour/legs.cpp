@@ -101,7 +101,7 @@ RuledMotion motion_through(const std::vector<Leg>& legs, double axis_length_mm, 
       times.push_back(begin + way * static_cast<double>(k + 1) / static_cast<double>(cubics.size()));
     }
   }
-  if (tips.empty()) throw InternalError("a motion needs a leg of some length");
+  if (tips.empty()) throw InternalError("a motion needs a path of some length");
   const double whole = times.back();
   for (double& time : times) time /= whole;
   times.back() = 1.0;

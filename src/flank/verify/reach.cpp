@@ -352,7 +352,7 @@ ReachScene::~ReachScene() = default;
 ReachScene::ReachScene(ReachScene&&) noexcept = default;
 
 std::vector<double> ReachScene::shares(const FaceSamples& target) const {
-  if (target.normals.size() != target.points.size()) throw InternalError("reach: a target's samples need normals");
+  if (target.normals.size() != target.points.size()) throw InternalError("reach: the samples of a face need normals");
   std::vector<double> shares(target.points.size());
   parallel_blocks(shares.size(), kBlock, [&](std::size_t begin, std::size_t end) {
     std::vector<Ball> balls(end - begin);
@@ -370,7 +370,7 @@ std::vector<double> ReachScene::shares(const FaceSamples& target) const {
 }
 
 std::vector<double> ReachScene::largest_balls(const FaceSamples& target) const {
-  if (target.normals.size() != target.points.size()) throw InternalError("reach: a target's samples need normals");
+  if (target.normals.size() != target.points.size()) throw InternalError("reach: the samples of a face need normals");
   std::vector<double> radii(target.points.size());
   parallel_blocks(radii.size(), kLeastBlock, [&](std::size_t begin, std::size_t end) {
     stop_here();

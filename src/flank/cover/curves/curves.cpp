@@ -197,7 +197,7 @@ SmoothedCurves smoothed_curves(const TileScene& dense, const std::vector<CoverSt
 }
 
 std::string counts_text(const CurveCounts& counts) {
-  return fmt::format("{} integral curves, {} long enough, {} lines, {} clusters, {} groups, {} candidate passes",
+  return fmt::format("{} axis curves traced, {} long enough, {} straight; {} clusters, {} groups, {} possible passes",
                      counts.seeds, counts.straight, counts.lines, counts.clusters, counts.groups, counts.strips);
 }
 

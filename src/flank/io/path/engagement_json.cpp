@@ -84,7 +84,7 @@ PathEngagement engagement_from_json(std::string_view text, const std::string& fi
     const JsonInput strip = strips.element(k);
     const std::size_t poses = path.strips[k].poses.size();
     if (strip.size() != poses)
-      strip.refuse(fmt::format("has {} angles, but the strip has {} poses", strip.size(), poses));
+      strip.refuse(fmt::format("has {} angles, but its pass has {} CL points", strip.size(), poses));
     std::vector<double>& angles = engagement.emplace_back();
     for (std::size_t i = 0; i < poses; ++i) {
       const double degrees = strip.element(i).number();
@@ -108,7 +108,7 @@ PathArcs arcs_from_json(std::string_view text, const std::string& file, const Pa
     const JsonInput strip = arcs.element(k);
     const std::size_t poses = path.strips[k].poses.size();
     if (strip.size() != poses)
-      strip.refuse(fmt::format("has {} lists of arcs, but the strip has {} poses", strip.size(), poses));
+      strip.refuse(fmt::format("has {} lists of arcs, but its pass has {} CL points", strip.size(), poses));
     std::vector<std::vector<EngagedArc>>& of_strip = out.strips.emplace_back();
     for (std::size_t i = 0; i < poses; ++i) of_strip.push_back(arcs_of(strip.element(i), out.heights.size()));
   }

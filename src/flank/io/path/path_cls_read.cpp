@@ -154,9 +154,9 @@ class Reader {
     int id = 0;
     const char* last = words[1].data() + words[1].size();
     if (const auto [stop, error] = std::from_chars(words[1].data(), last, id); error != std::errc() || stop != last)
-      in_.refuse(fmt::format("strip number \"{}\" is not a whole number", words[1]));
+      in_.refuse(fmt::format("pass number (STRIP) \"{}\" is not a whole number", words[1]));
     // Reports name strips by these numbers.
-    if (!ids_.insert(id).second) in_.refuse(fmt::format("strip {} occurs twice", id));
+    if (!ids_.insert(id).second) in_.refuse(fmt::format("pass {} (STRIP) occurs twice", id));
     path_.strips.push_back({id, words[2], words.size() > 3 ? words[3] : "", {}});
     named_ = true;
   }

@@ -130,10 +130,10 @@ Path path_from_csv(std::string_view text, const std::string& file) {
     const double number = in.number((*fields)[0]);
     // Compared after the cast: 1.5 and 1e300 are no whole numbers.
     const int id = std::abs(number) < 1e9 ? static_cast<int>(number) : 0;
-    if (id != number) in.refuse("the strip's number must be a whole number");
+    if (id != number) in.refuse("the number of a pass must be a whole number");
     if (path.strips.empty() || path.strips.back().id != id) {
       // A strip in two parts would be joined across what lies between.
-      if (!ids.insert(id).second) in.refuse(fmt::format("strip {} continues after another one", id));
+      if (!ids.insert(id).second) in.refuse(fmt::format("pass {} continues after another one", id));
       path.strips.push_back({id, (*fields)[1], (*fields)[2], {}});
     }
     path.strips.back().poses.push_back(pose_from(in, *fields));

@@ -77,7 +77,7 @@ RadialFunction round(const std::vector<ProfileArc>& flank, double from, double l
     return {ToolFamily::kBarrel, length, Eigen::Vector3d(-circle.radius, depth - circle.radius, middle)};
   if (circle.centre.y() > -kSameMm)
     throw InputError(fmt::format(
-        "{}: the flank is an arc of R {:.4g}, less than its distance from the axis: no spheres can be inscribed", file,
+        "{}: the flank is an arc of R {:.4g}, too small: R must exceed the distance of the arc from the axis", file,
         circle.radius));
   return {ToolFamily::kBarrel, length, Eigen::Vector3d(circle.radius, circle.radius - depth, middle)};
 }

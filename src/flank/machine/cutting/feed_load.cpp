@@ -44,7 +44,7 @@ double largest_within(const Vec& slope, const Vec& rest, double limit) {
 
 FeedLoad::FeedLoad(const RotatingCutter& cutter, const CutterMotion& per_mm, const ForceCoefficients& coefficients,
                    std::span<const double> compliance, int even) {
-  if (compliance.size() != cutter.rings.size()) throw InternalError("compliances of other rings");
+  if (compliance.size() != cutter.rings.size()) throw InternalError("the stiffness figures belong to another tool");
   const ForceCoefficients chip = by_chip(coefficients), edge = by_edge(coefficients);
   for (const CutterRing& ring : cutter.rings) chip_ = std::max(chip_, thickest_chip(cutter, per_mm, ring));
   power_ = {mean_power_w(cutter, mean_load(cutter, per_mm, chip)),

@@ -62,9 +62,10 @@ Lead lead_of(const StripEnd& end, std::size_t k, double lift_mm) {
   Vec3 off = std::cos(angle) * side + std::sin(angle) * other;
   const double lift = kShares[way / kDirections] * lift_mm;
   if (!arc) return {lift * off};
-  constexpr double kAcross = 0.5;  // of `off` across the motion: an arc away from where it was going is no tangent one
+  // An arc leaves square to the motion: of the directions the one nearest to that, on either side, or all would give the same two arcs.
+  constexpr double kHalfStep = std::numbers::pi / kDirections, kRounding = 1e-9;
   off -= off.dot(end.going) * end.going;
-  if (end.going.isZero() || !(off.norm() > kAcross)) return {};
+  if (end.going.isZero() || off.norm() < std::cos(kHalfStep) - kRounding) return {};
   return {lift * off.normalized(), end.motion};
 }
 

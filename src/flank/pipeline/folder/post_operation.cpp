@@ -34,7 +34,7 @@ void accept_links(const PlannedOperation& plan, PostOutcome& outcome) {
   if (depth > tolerance) {
     const WorstPlace* worst = plan.links.report.worst.empty() ? nullptr : &plan.links.report.worst.front();
     add_reason(outcome.acceptance, Figure::kGouge,
-               fmt::format("no link between passes was found that cuts nothing: link {} cuts {} by {:.4f} mm, more "
+               fmt::format("every link tried between two passes cuts something: link {} cuts {} by {:.4f} mm, more "
                            "than the tolerance of {} mm",
                            worst != nullptr ? worst->strip + 1 : 0, worst != nullptr ? worst->face : "the part", depth,
                            tolerance));
@@ -78,7 +78,7 @@ void accept_rounding(double depth, const PlannedOperation& plan, const Post& res
   const double tolerance = plan.setup.tolerance_mm, room = std::max(tolerance - depth, kOutsideShare * tolerance);
   if (result.deviation_mm + result.rounding_mm <= room) return;
   add_reason(outcome.acceptance, Figure::kRounding,
-             fmt::format("rounding moves the tool by up to {:.6f} mm and its chords by {:.6f} mm, the path gouges by "
+             fmt::format("rounding moves the tool by up to {:.6f} mm, straight blocks by {:.6f} mm, the path gouges by "
                          "up to {:.6f} mm: together possibly more than the tolerance of {} mm; give more digits "
                          "(length_decimals, angle_decimals of the machine's file) or a smaller --deviation",
                          result.rounding_mm, result.deviation_mm, depth, tolerance));
@@ -181,7 +181,7 @@ PostOutcome post_operation(const Machine& machine, const PlannedOperation& plan,
   fill(machine, result, outcome);
   if (copy.copy == 1 && result.resting_s)
     outcome.notes.emplace_back(
-        "LinuxCNC comes to rest at the end of every block while rotary axes may turn, and the times are those of that; "
+        "LinuxCNC stops at the end of every block in which rotary axes may turn, and the times include these stops; "
         "a larger --deviation makes longer blocks");
   if (copy.copy == 1) accept_links(plan, outcome);
   MachineScene scene = machine_scene(machine, plan.tool, tip_offset(machine, plan.facts));

@@ -83,11 +83,11 @@ Bending bending_of(const std::vector<FaceSamples>& faces, const SweptVolume& vol
 }
 
 std::string bending_text(const Bending& b) {
-  if (b.samples == 0) return "bending: no place of the faces is made under a load that is known";
+  if (b.samples == 0) return "bending: not calculated, because no load is known on these faces";
   return fmt::format(
       "bending adds {:.2f} to {:.2f} um of excess material, most at ({:.2f}, {:.2f}, {:.2f}); by samples the gouge is "
       "{:.4f} mm, "
-      "stiff {:.4f}, the excess material {:.4f} mm, stiff {:.4f}",
+      "without bending {:.4f}, the excess material {:.4f} mm, without bending {:.4f}",
       1e3 * b.least_mm, 1e3 * b.most_mm, b.most_point.x(), b.most_point.y(), b.most_point.z(), b.bent_overcut_mm,
       b.overcut_mm, b.bent_undercut_mm, b.undercut_mm);
 }

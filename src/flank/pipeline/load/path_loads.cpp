@@ -131,7 +131,7 @@ std::vector<double> compliances(const Tool& tool, const RotatingCutter& cutter, 
 }
 
 PathLoads path_loads(const Tool& tool, const Path& path, const PathArcs& arcs, const CuttingRequest& request) {
-  if (arcs.strips.size() != path.strips.size()) throw InternalError("arcs of another path");
+  if (arcs.strips.size() != path.strips.size()) throw InternalError("the engagement belongs to another path");
   const double length = tool.radial.axis_length();
   PathLoads out;
   out.slowest.feed = 1e300;

@@ -109,7 +109,7 @@ RuledMotion motion_of(const FitJob& job, const UserStart& start, const ToolModel
   const LineStart found = start_from_line(target, start.line->pose(), length.value_or(start.line->length()));
   notes.push_back(found.report.message);
   if (found.report.status == LineStartStatus::kNoMotion)
-    throw InputError("start", "the start line cannot move along the face: " + found.report.message);
+    throw InputError("start", "the first tool axis cannot move along the face: " + found.report.message);
   return found.motion;
 }
 
@@ -207,7 +207,7 @@ FitSearch search_half_turn(const FitJob& job, const Setup& setup, const WoundFac
   search.wound = make_targets(setup);
   if (job.avoid) add_group_obstacles(setup, job.obstacles.clearance_mm, search.options.bounds.largest, search.wound);
   search.fit.notes.push_back(
-      fmt::format("{} winds {:.1f} times round its axis: the motion found for half a turn was extended along the screw",
+      fmt::format("{} winds {:.1f} times round its axis: the motion found for half a turn was extended along the helix",
                   search.wound.front().faces, wound_face.turns()));
   return search;
 }

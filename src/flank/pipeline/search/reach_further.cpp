@@ -161,7 +161,8 @@ FlankFitResult extend_coverage(const std::vector<FitTask>& tasks, const FlankFit
 FlankFitResult reach_further(const std::vector<FitTask>& tasks, const FlankFitResult& found, const ToolModel& tool,
                              const FlankFitOptions& options, const Progress& progress) {
   FLANK_ASSERT(tasks.size() == found.motions.size());
-  const bool sound = is_clean(found.after, options.tolerance_mm) && is_steady(found.after);  // else it has more to give up
+  const bool sound =
+      is_clean(found.after, options.tolerance_mm) && is_steady(found.after);  // else it has more to give up
   if (tasks.empty() || progress.stop() || !sound) return found;
   return journaled(
       progress, "reach further", [&] { return extend_coverage(tasks, found, tool, options); }, found);

@@ -25,7 +25,7 @@ constexpr double kChunkReaches = 10.0;
 constexpr double kLeastSquaredAxis = 1e-3;
 
 std::string place(std::size_t strip, std::size_t pose) {
-  return "path: strip " + std::to_string(strip + 1) + ", pose " + std::to_string(pose + 1);
+  return "path: pass " + std::to_string(strip + 1) + ", CL point " + std::to_string(pose + 1);
 }
 
 Pose checked(const Pose& pose, std::size_t strip, std::size_t index) {

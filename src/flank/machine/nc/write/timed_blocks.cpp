@@ -37,7 +37,7 @@ class Stater {
         slowest_mm_s_(slowest_turning_feed(program, dialect) / 60.0) {}
 
   double run(const std::vector<BlockTime>& times) {
-    if (times.size() != program_.moves.size()) throw InternalError("times of other moves");
+    if (times.size() != program_.moves.size()) throw InternalError("the times belong to other moves");
     for (std::size_t i = 0; i < times.size(); ++i) {
       NcMove move = program_.moves[i];
       round_move(program_, dialect_, move);
