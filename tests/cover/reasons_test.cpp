@@ -96,7 +96,7 @@ TEST(Reason, SaysThatNoLineFits) {
   const auto target = testing::flat_target(0.0, 20.0, 0.0, 20.0);
   const std::string text =
       reason_of(*target, testing::cylinder(4.0, 12.5).radial, cover_samples(*target, 1.0), {}, 0.005);
-  EXPECT_TRUE(says(text, "no contact line of this tool's 12.5 mm stays within 0.005 mm of the face")) << text;
+  EXPECT_TRUE(says(text, "nowhere does the whole flank (12.5 mm) lie within 0.005 mm of the face")) << text;
 }
 
 TEST(Reason, NamesTheLargestPlaceThatIsLeft) {

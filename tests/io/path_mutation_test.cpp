@@ -104,7 +104,7 @@ TEST(PathMutations, ANumberThatOverflowsInMillimetresIsRefusedByItsLine) {
 }
 
 TEST(PathMutations, AStripMayNotTakeTheNumberOfOneWithoutAName) {
-  expect_line("GOTO/1,2,3\nPPRINT STRIP 1 flank\nGOTO/4,5,6\n", path_from_cls, "line 2: strip 1 occurs twice");
+  expect_line("GOTO/1,2,3\nPPRINT STRIP 1 flank\nGOTO/4,5,6\n", path_from_cls, "line 2: pass 1 (STRIP) occurs twice");
   const Path path = path_from_cls("GOTO/1,2,3\nPPRINT STRIP 2 flank\nGOTO/4,5,6\n", "p.cls");
   ASSERT_EQ(path.strips.size(), 2u);
   EXPECT_EQ(path.strips[0].id, 1);

@@ -71,7 +71,7 @@ void split_faces(Part& part, const std::string& list) {
       if (part.is_left_out(face)) throw InputError(part.left_out.at(face));
       std::vector<NamedPiece> pieces = pieces_of_face(part, face);
       if (pieces.empty())
-        throw InputError(fmt::format("{}: {} has no part \"{}\": it does not wrap round an edge; name the whole face",
+        throw InputError(fmt::format("{}: {} has no piece \"{}\": it does not wrap round an edge; name the whole face",
                                      part.file, id, item));
       replace_face(part, face, std::move(pieces));
       break;

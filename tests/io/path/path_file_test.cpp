@@ -100,7 +100,7 @@ TEST(PathCsv, BadTablesAreRefusedByLine) {
       {head + "1,flank,F1,0,0,0,0,0,1.5\n", "length 1.5"},
       {head + "1,\"flank,F1,0,0,0,0,0,1\n", "quote is not closed"},
       {head + "1,a,F1,0,0,0,0,0,1\n2,a,F1,0,0,0,0,0,1\n1,a,F1,0,0,0,0,0,1\n",
-       "line 4: strip 1 continues after another one"}};
+       "line 4: pass 1 continues after another one"}};
   for (const auto& [text, expected] : corpus) {
     const std::string message = refusal(text, path_from_csv);
     EXPECT_EQ(message.rfind("p.file: ", 0), 0u) << message;

@@ -192,13 +192,13 @@ TEST(PoseTree, RefusesPosesThatAreNoneNamingStripAndPose) {
   EXPECT_EQ(complaint(good), "accepted");
   Path bad = good;
   bad.strips[1].poses[3].tip.y() = std::nan("");
-  EXPECT_NE(complaint(bad).find("strip 2, pose 4 is not finite"), std::string::npos) << complaint(bad);
+  EXPECT_NE(complaint(bad).find("pass 2, CL point 4 is not finite"), std::string::npos) << complaint(bad);
   bad = good;
   bad.strips[0].poses[16].axis *= 1.01;
-  EXPECT_NE(complaint(bad).find("strip 1, pose 17 has an axis of length 1.01"), std::string::npos) << complaint(bad);
+  EXPECT_NE(complaint(bad).find("pass 1, CL point 17 has an axis of length 1.01"), std::string::npos) << complaint(bad);
   bad = good;
   bad.strips[0].poses[5].axis *= -1.0;
-  EXPECT_NE(complaint(bad).find("strip 1, pose 6 turns the axis by more than 170 degrees"), std::string::npos)
+  EXPECT_NE(complaint(bad).find("pass 1, CL point 6 turns the axis by more than 170 degrees"), std::string::npos)
       << complaint(bad);
   bad = good;
   bad.strips[0].poses[2].axis *= 1.0005;
