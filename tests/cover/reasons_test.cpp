@@ -80,7 +80,7 @@ TEST(Reason, NamesTheCurvatureAndTheToolsThinnestPlace) {
   const RadialFunction cone(ToolFamily::kCone, 25.0, Eigen::Vector2d(45.0, -std::asin(0.2)));
   const std::string text = reason_of(*target, cone, samples, {}, 0.01);
   EXPECT_TRUE(says(text, "the concave face needs a tool radius below 30 mm at (")) << text;
-  EXPECT_TRUE(says(text, "the smallest of this tool is 40 mm, s = 25")) << text;
+  EXPECT_TRUE(says(text, "the smallest of this tool is 40 mm, 25 mm along its axis")) << text;
 }
 
 TEST(Reason, AToolThatFitsTheHollowIsNotBlamedForIt) {
