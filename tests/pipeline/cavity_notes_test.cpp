@@ -98,7 +98,8 @@ TEST(CavityNotes, WhereCyclesGotStuckTheLimitThatGetsPastIsTold) {
   notes.clear();
   note_what_is_open(asked_for(), program, notes);
   ASSERT_EQ(notes.size(), 3u);
-  EXPECT_NE(notes[0].find("a step of 0.0121 mm with 61.30 degrees; --max-engagement 62"), std::string::npos) << notes[0];
+  EXPECT_NE(notes[0].find("a step of 0.0121 mm with 61.30 degrees; --max-engagement 62"), std::string::npos)
+      << notes[0];
   EXPECT_NE(notes[1].find("the rest is not machined"), std::string::npos) << notes[1];
 }
 
