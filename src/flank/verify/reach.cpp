@@ -170,6 +170,7 @@ class Surroundings {
         own_(std::move(own)),
         solids_(std::move(solids)) {
     for (const std::shared_ptr<const ObstacleTree>& tree : surface_) all_.push_back(tree.get());
+    own_alone_.push_back(own_.get());
   }
 
   /// The shares of the cells of neighbouring balls, in halves: a distance has slope 1, so that one place may decide for
@@ -183,10 +184,10 @@ class Surroundings {
     for (int step = 0; step < kMostSteps && radius > tolerance; ++step) {
       const Vec3 center = x + radius * n;
       double smaller = radius;
-      for (const NearTrees& trees : {all_, NearTrees{own_.get()}}) {
+      for (const NearTrees* trees : {&all_, &own_alone_}) {
         TreeTriangle nearest;
         const double limit = radius - tolerance;
-        if (capped_distance(trees, center, limit, 0.0, &nearest) >= limit) continue;
+        if (capped_distance(*trees, center, limit, 0.0, &nearest) >= limit) continue;
         const Vec3 away = triangle_point(*nearest.tree, nearest.triangle, center) - x;
         // The ball that touches at x and passes through that point. What lies behind x lets none pass.
         const double ahead = away.dot(n);
@@ -272,6 +273,7 @@ class Surroundings {
   bool all_checked_;  ///< no face of a solid is there only to close it
   Trees surface_;     ///< one a face
   NearTrees all_;     ///< these
+  NearTrees own_alone_;
   std::shared_ptr<const ObstacleTree> own_;
   std::vector<std::shared_ptr<const ReadySolid>> solids_;
 };

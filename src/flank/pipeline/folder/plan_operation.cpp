@@ -61,7 +61,7 @@ PostTool post_tool(const Tool& tool) {
   return {.name = tool.name,
           .axis_length = tool.radial.axis_length(),
           .tip_radius = tool.radial.at(0.0).r,
-          .largest_radius = 0.5 * largest_diameter(tool)};
+          .largest_radius = tool.radial.largest()};
 }
 
 /// Of all that could touch: flank, shank and holder.

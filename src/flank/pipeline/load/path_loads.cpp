@@ -76,12 +76,7 @@ std::string_view name_of(LoadKind kind) {
 
 }  // namespace
 
-double largest_diameter(const Tool& tool) {
-  double radius = 0.0;
-  constexpr int kLooks = 200;
-  for (int k = 0; k <= kLooks; ++k) radius = std::max(radius, tool.radial.at(tool.radial.axis_length() * k / kLooks).r);
-  return 2.0 * radius;
-}
+double largest_diameter(const Tool& tool) { return 2.0 * tool.radial.largest(); }
 
 CuttingRequest usual_cutting(const Material& material, int flutes, double helix_rad, double diameter_mm) {
   const CuttingData data = cutting_data(material, diameter_mm, flutes, 0.0);
