@@ -119,6 +119,9 @@ TEST(Journal, IsOfOneRun) {
   Journal fresh;
   fresh.begin(kKey);
   EXPECT_EQ(fresh.key(), kKey);
+  // What a run plans on the way, as once more with a shank, is no run of its own.
+  fresh.begin({"1.0", "another", "part"});
+  EXPECT_EQ(fresh.key(), kKey);
 }
 
 TEST(Journal, StepsSideBySideAreTakenOneByOne) {

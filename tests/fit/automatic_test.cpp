@@ -133,7 +133,7 @@ TEST(FitAutomatic, BesideAHubItStaysOutOfIt) {
   options.reach_radius_mm = 5.0;
   const FlankFitResult result = fit_automatic(*blade, given_cylinder(5.0), options, {});
   EXPECT_LE(result.after.gouge_mm, kTolerance) << result.message;
-  EXPECT_LE(flank_gouge(result.motions, {&obstacles}, result.tool, 400), 1.1 * kTolerance);
+  EXPECT_LE(flank_gouge(result.motions, {&obstacles}, result.tool, {}, 400), 1.1 * kTolerance);
   EXPECT_GT(result.after.at_tolerance, 0.9) << result.message;
 }
 

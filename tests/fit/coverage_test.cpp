@@ -7,6 +7,7 @@
 #include "fit/flat_scene.h"
 #include "flank/fit.h"
 #include "flank/fit/coverage.h"
+#include "flank/fit/model/shank_balls.h"
 #include "flank/threads.h"
 #include "seed/exact_targets.h"
 
@@ -177,7 +178,8 @@ TEST(FlankGouge, IsTheDeepestBallInTheHub) {
   const auto blade = standing_blade(0.0);
   const ObstacleField obstacles(only(hub(true)), *blade, 2.0, 0.0);
   for (const double z : {8.0, 5.0, 4.9, 3.0, -6.0})
-    EXPECT_NEAR(flank_gouge({upright_motion({.z = z})}, {&obstacles}, cylinder(5.0), 20), std::max(0.0, 5.0 - z), 1e-6)
+    EXPECT_NEAR(flank_gouge({upright_motion({.z = z})}, {&obstacles}, cylinder(5.0), {}, 20), std::max(0.0, 5.0 - z),
+                1e-6)
         << z;
 }
 
@@ -186,7 +188,7 @@ TEST(FlankGouge, OfARoughLookIsExactWhereTheFlankTouchesAndEstimatedWhereItIsIns
   const ObstacleField obstacles(only(hub(true)), *blade, 2.0, 0.0);
   for (double z = 6.0; z > -6.0; z -= 0.05) {
     const double depth = std::max(0.0, 5.0 - z);
-    EXPECT_NEAR(flank_gouge({upright_motion({.z = z})}, {&obstacles}, cylinder(5.0), 20, GougeLook::kRough), depth,
+    EXPECT_NEAR(flank_gouge({upright_motion({.z = z})}, {&obstacles}, cylinder(5.0), {}, 20, GougeLook::kRough), depth,
                 depth < 0.5 ? 1e-6 : 0.1)
         << z;
   }
@@ -199,7 +201,7 @@ TEST(FlankGouge, FindsTheOneBallOfABarrelThatEnters) {
   RuledMotion lying = upright_motion({.y = 12.0, .z = 6.0, .x_first = 10.0, .x_last = 20.0});
   lying.direction.poles.colwise() = Vec3::UnitX();
   const RadialFunction barrel(ToolFamily::kBarrel, 30.0, Eigen::Vector3d(60.0, 6.2, 17.3));
-  EXPECT_NEAR(flank_gouge({lying}, {&obstacles}, barrel, 12), 0.2, 2e-3);
+  EXPECT_NEAR(flank_gouge({lying}, {&obstacles}, barrel, {}, 12), 0.2, 2e-3);
 }
 
 TEST(FlankGouge, DoesNotStepOverANarrowBump) {
@@ -209,18 +211,36 @@ TEST(FlankGouge, DoesNotStepOverANarrowBump) {
   lying.direction.poles.colwise() = Vec3::UnitX();
   Eigen::VectorXd radii = Eigen::VectorXd::Constant(12, 3.0);
   radii[5] = 9.0;  // r = 3, but 3 + 2/3 6 at the bump's top, a knot of the spline
-  const double found = flank_gouge({lying}, {&obstacles}, RadialFunction::spline(60.0, radii), 4);
+  const double found = flank_gouge({lying}, {&obstacles}, RadialFunction::spline(60.0, radii), {}, 4);
   EXPECT_LE(found, 0.1 + 1e-9);
   EXPECT_GT(found, 0.1 - 0.5 * 0.27 * 0.25) << "half a step of one millimetre off the top, r'' = 0.27";
+}
+
+TEST(FlankGouge, CountsTheShankThatStandsAboveTheFlank) {
+  const auto blade = standing_blade(0.0);
+  const ObstacleField obstacles(only(hub(true)), *blade, 2.0, 0.0);
+  // The axis falls towards the hub: the flank ends 9 mm above it, and a shank of 30 mm comes down to z = 3.
+  RuledMotion falling = upright_motion({.y = 12.0, .z = 15.0, .x_first = 5.0, .x_last = 15.0});
+  falling.direction.poles.colwise() = Vec3(std::sqrt(1.0 - 0.04), 0.0, -0.2);
+  RadiusBounds bounds;
+  EXPECT_EQ(flank_gouge({falling}, {&obstacles}, cylinder(5.0), bounds, 12), 0.0);
+  bounds.shank_length = 30.0;
+  for (const GougeLook look : {GougeLook::kRough, GougeLook::kQuick, GougeLook::kClose}) {
+    EXPECT_NEAR(flank_gouge({falling}, {&obstacles}, cylinder(5.0), bounds, 12, look), kShankGrown * 5.0 - 3.0,
+                look == GougeLook::kRough ? 0.1 : 1e-6);
+    RadiusBounds thin = bounds;
+    thin.shank_radius = 2.0;
+    EXPECT_EQ(flank_gouge({falling}, {&obstacles}, cylinder(5.0), thin, 12, look), 0.0);
+  }
 }
 
 TEST(FlankGouge, LooksOnlyAtMotionsThatHaveChecks) {
   const auto blade = standing_blade(0.0);
   const ObstacleField obstacles(only(hub(true)), *blade, 2.0, 0.0);
   const std::vector<RuledMotion> motions = {upright_motion({.z = 0.0}), upright_motion({.z = 4.0})};
-  EXPECT_EQ(flank_gouge(motions, {}, cylinder(5.0), 12), 0.0);
-  EXPECT_NEAR(flank_gouge(motions, {nullptr, &obstacles}, cylinder(5.0), 12), 1.0, 1e-6);
-  EXPECT_NEAR(flank_gouge(motions, {&obstacles, &obstacles}, cylinder(5.0), 12), 5.0, 1e-6);
+  EXPECT_EQ(flank_gouge(motions, {}, cylinder(5.0), {}, 12), 0.0);
+  EXPECT_NEAR(flank_gouge(motions, {nullptr, &obstacles}, cylinder(5.0), {}, 12), 1.0, 1e-6);
+  EXPECT_NEAR(flank_gouge(motions, {&obstacles, &obstacles}, cylinder(5.0), {}, 12), 5.0, 1e-6);
 }
 
 TEST(Validate, AnExactEnvelopeHasNoError) {

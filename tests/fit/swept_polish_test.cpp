@@ -221,7 +221,7 @@ TEST(SweptPolish, AFirmPassLeavesOtherFacesAndASoftOneDoesNotQuite) {
   FitDraft draft = twisted_draft(*blade, 0.0, 0.0, false);
   draft.obstacles = {&obstacles};
   draft.motions = {upright_motion({.y = 4.0, .z = -1.0, .x_first = -2.0, .x_last = 56.0 + deep, .length = 42.0})};
-  const auto depth = [](const FitDraft& d) { return flank_gouge(d.motions, d.obstacles, d.tool, 400); };
+  const auto depth = [](const FitDraft& d) { return flank_gouge(d.motions, d.obstacles, d.tool, {}, 400); };
   ASSERT_NEAR(depth(draft), deep, 1e-6);
   const double soft = depth(pass_at(draft, {}, small_options(), 1.0, 1.0));
   const double firm = depth(pass_at(draft, {}, small_options(), 100.0, 1.0));

@@ -35,7 +35,7 @@ ObstacleFace end_wall() {
   return {make_target({quad(Vec3(50, 50, -20), Vec3(50, -50, -20), Vec3(50, 50, 60), Vec3(50, -50, 60), "F3")}), true};
 }
 
-double deepest(const FitDraft& draft) { return flank_gouge(draft.motions, draft.obstacles, draft.tool, 400); }
+double deepest(const FitDraft& draft) { return flank_gouge(draft.motions, draft.obstacles, draft.tool, {}, 400); }
 
 TEST(ShortenedPath, EndsWhereTheFlankTouchesTheWall) {
   const auto blade = standing_blade(0.0);

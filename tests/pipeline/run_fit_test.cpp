@@ -146,18 +146,17 @@ void expect_chosen_shank(const Result& result, const std::string& part) {
             1);
 }
 
-TEST(RunFit, ChoosesAShankForWhatItFound) {
+TEST(RunFit, ChoosesAShankWhereNothingSaysWhatStandsAboveTheFlank) {
   if (kSanitized) GTEST_SKIP() << "a whole search";
   FLANK_REAL_PART(blade, "r37_blade.step");
   FitJob job;
   job.part.file = blade;
   job.part.faces = "F1";
   job.tolerance_mm = 0.3;
-  job.obstacles.shank = "auto";
   expect_chosen_shank<FitJob>(run_fit(job, {}), blade);
 }
 
-TEST(RunCover, ChoosesAShankForWhatItFound) {
+TEST(RunCover, ChoosesAShankWhereNothingSaysWhatStandsAboveTheFlank) {
   if (kSanitized) GTEST_SKIP() << "a whole cover";
   FLANK_REAL_PART(blade, "r37_blade.step");
   CoverJob job;
@@ -166,7 +165,6 @@ TEST(RunCover, ChoosesAShankForWhatItFound) {
   job.tool.spec = "cylinder:radius=6";
   job.tool.axis_length_mm = 60.0;
   job.tolerance_mm = 0.3;
-  job.obstacles.shank = "auto";
   expect_chosen_shank<CoverJob>(run_cover(job, {}), blade);
 }
 

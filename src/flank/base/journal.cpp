@@ -9,6 +9,7 @@
 namespace flank {
 
 void Progress::Journal::begin(const JournalKey& key) {
+  if (begun_) return;
   if (key_ && *key_ != key) {
     const std::string needed = "; give a folder of the same command, part, options and version";
     if (key_->part != key.part) throw InputError(file_ + ": is of another part" + needed);
@@ -17,6 +18,7 @@ void Progress::Journal::begin(const JournalKey& key) {
     throw InputError(file_ + ": is of another job" + needed);
   }
   key_ = key;
+  begun_ = true;
 }
 
 bool Progress::Journal::is_next(const JournalStep& step) const {

@@ -49,7 +49,8 @@ class flank::Progress::Journal {
       : key_(std::move(key)), earlier_(std::move(earlier)), file_(std::move(file)) {}
 
   [[nodiscard]] const std::optional<JournalKey>& key() const { return key_; }
-  /// From here on the steps are of this run. Throws InputError if those that were read are of another.
+  /// From here on the steps are of this run, those of whatever it plans on the way to its result among them: only the first call counts.
+  /// Throws InputError if those that were read are of another.
   void begin(const JournalKey& key);
 
   /// The next step of the earlier run, if it has this name and these inputs: `read` gets its values. False if it has not. Throws InputError with
@@ -82,7 +83,7 @@ class flank::Progress::Journal {
   std::optional<JournalKey> key_;
   std::vector<JournalStep> steps_, earlier_;
   std::size_t taken_ = 0;  ///< of the earlier ones
-  bool added_ = false;
+  bool added_ = false, begun_ = false;
   std::string file_;
 };
 

@@ -7,6 +7,7 @@
 #include "flank/base/tolerance_budget.h"
 #include "flank/base/work_count.h"
 #include "flank/envelope/swept_estimate.h"
+#include "flank/fit/model/shank_balls.h"
 
 namespace flank {
 namespace {
@@ -88,7 +89,26 @@ std::vector<double> estimate_distances(const std::vector<SurfaceSample>& samples
 /// Along the axis, at most: balls a sixtieth of the axis apart overlap almost wholly.
 constexpr int kGougeSteps = 60;
 
-/// How deep the flank of a pose enters an obstacle, >= 0, and where.
+/// Flank and shank as balls along the axis.
+struct AxisBalls {
+  const RadialFunction& flank;
+  double shank = 0.0;  ///< radius of its balls
+  double end = 0.0;    ///< of the axis with the shank
+
+  AxisBalls(const RadialFunction& tool, const RadiusBounds& bounds)
+      : flank(tool), shank(shank_ball(tool, bounds)), end(tool.axis_length() + bounds.shank_length) {}
+
+  [[nodiscard]] double step() const { return flank.axis_length() / kGougeSteps; }
+  [[nodiscard]] double radius(double s) const { return s > flank.axis_length() ? shank : flank.at(s).r; }
+  /// Where to look after `s`, of which the gap changes by at most twice the step (|r'| < 1): what is clear by it stays so for half of it. The
+  /// flank's end is never left out: the radius may jump there.
+  [[nodiscard]] double next(double s, double gap) const {
+    const double stop = s < flank.axis_length() ? flank.axis_length() : end;
+    return std::min(stop, s + std::max(step(), 0.5 * gap));
+  }
+};
+
+/// How deep the tool enters an obstacle in a pose, >= 0, and where.
 struct Deepest {
   double mm = 0.0, s = 0.0;
 };
@@ -103,32 +123,30 @@ double gap_at(const Vec3& p, double radius, const ObstacleField& obstacles, doub
   return obstacles.at(p, radius + close_mm).distance_mm - radius;
 }
 
-Deepest deepest_place(const Pose& pose, const ObstacleField& obstacles, const RadialFunction& tool, GougeLook look) {
+Deepest deepest_place(const Pose& pose, const ObstacleField& obstacles, const AxisBalls& balls, GougeLook look) {
   // Of the axis length: about the step of the lattice of distances (1/48 of the target's size). If the estimate is
   // nearer than that, the ball may touch, and the exact distance is asked for.
   constexpr double kClose = 0.02;
-  const double length = tool.axis_length();
+  const double close = kClose * balls.flank.axis_length();
   Deepest deepest;
-  for (double s = 0.0;; s = std::min(s, length)) {
-    const double gap = gap_at(pose.at(s), tool.at(s).r, obstacles, kClose * length, look);
+  for (double s = 0.0;;) {
+    const double gap = gap_at(pose.at(s), balls.radius(s), obstacles, close, look);
     if (-gap > deepest.mm) deepest = {-gap, s};
-    if (s >= length) return deepest;
-    // The gap changes by at most twice the step (|r'| < 1): what is clear by it stays so for half of it.
-    s += std::max(length / kGougeSteps, 0.5 * gap);
+    if (s >= balls.end) return deepest;
+    s = balls.next(s, gap);
   }
 }
 
 /// Calls look(place, radius, rough distance) along the axis.
 template <class Look>
-void look_along(const Pose& pose, const ObstacleField& obstacles, const RadialFunction& tool, const Look& look) {
-  const double length = tool.axis_length();
-  for (double s = 0.0;; s = std::min(s, length)) {
+void look_along(const Pose& pose, const ObstacleField& obstacles, const AxisBalls& balls, const Look& look) {
+  for (double s = 0.0;;) {
     const Vec3 p = pose.at(s);
-    const double r = tool.at(s).r;
+    const double r = balls.radius(s);
     const ObstacleField::Rough about = obstacles.rough(p);
     look(p, r, about);
-    if (s >= length) return;
-    s += std::max(length / kGougeSteps, 0.5 * (about.distance_mm - about.off_mm - r));
+    if (s >= balls.end) return;
+    s = balls.next(s, about.distance_mm - about.off_mm - r);
   }
 }
 
@@ -142,10 +160,10 @@ double largest(const RuledMotion& motion, int poses, const Depth& depth) {
 
 /// The deepest place of a motion: estimated if it is surely inside, for how deep does not matter then; else exactly, where the
 /// flank may touch.
-double rough_depth(const RuledMotion& motion, const ObstacleField& obstacles, const RadialFunction& tool, int poses) {
+double rough_depth(const RuledMotion& motion, const ObstacleField& obstacles, const AxisBalls& balls, int poses) {
   const double inside = largest(motion, poses, [&](const Pose& pose) {
     double surely = 0.0;
-    look_along(pose, obstacles, tool, [&](const Vec3&, double r, const ObstacleField::Rough& about) {
+    look_along(pose, obstacles, balls, [&](const Vec3&, double r, const ObstacleField::Rough& about) {
       if (about.distance_mm + about.off_mm < r) surely = std::max(surely, r - about.distance_mm);
     });
     return surely;
@@ -153,7 +171,7 @@ double rough_depth(const RuledMotion& motion, const ObstacleField& obstacles, co
   if (inside > 0.0) return inside;
   return largest(motion, poses, [&](const Pose& pose) {
     double found = 0.0;
-    look_along(pose, obstacles, tool, [&](const Vec3& p, double r, const ObstacleField::Rough& about) {
+    look_along(pose, obstacles, balls, [&](const Vec3& p, double r, const ObstacleField::Rough& about) {
       if (about.distance_mm - about.off_mm < r - found)
         found = std::max(found, r - obstacles.interpolated(p, r - found).distance_mm);
     });
@@ -162,14 +180,13 @@ double rough_depth(const RuledMotion& motion, const ObstacleField& obstacles, co
 }
 
 /// The depth about the deepest place, closer: balls h apart leave up to h^2 / (8 r) of the flank between them.
-double between_places(const Pose& pose, const ObstacleField& obstacles, const RadialFunction& tool,
-                      const Deepest& found) {
+double between_places(const Pose& pose, const ObstacleField& obstacles, const AxisBalls& balls, const Deepest& found) {
   constexpr int kCloser = 8;  // times: a 64th of what lies between is left
   if (found.mm <= 0.0) return 0.0;
-  const double step = tool.axis_length() / kGougeSteps;
+  const double step = balls.step();
   double deepest = found.mm;
   for (int k = -kCloser; k <= kCloser; ++k) {
-    const double s = std::clamp(found.s + step * k / kCloser, 0.0, tool.axis_length()), r = tool.at(s).r;
+    const double s = std::clamp(found.s + step * k / kCloser, 0.0, balls.end), r = balls.radius(s);
     deepest = std::max(deepest, r - obstacles.at(pose.at(s), r).distance_mm);
   }
   return deepest;
@@ -221,15 +238,16 @@ CoverageEstimate estimate_coverage(const std::vector<SurfaceSample>& samples, co
 }
 
 double flank_gouge(const std::vector<RuledMotion>& motions, const std::vector<const ObstacleField*>& obstacles,
-                   const RadialFunction& tool, int poses, GougeLook look) {
+                   const RadialFunction& tool, const RadiusBounds& bounds, int poses, GougeLook look) {
+  const AxisBalls balls(tool, bounds);
   double deepest = 0.0;
   for (std::size_t m = 0; m < obstacles.size(); ++m) {
     if (obstacles[m] == nullptr) continue;
     const auto depth_of = [&](const Pose& pose) {
-      const Deepest found = deepest_place(pose, *obstacles[m], tool, look);
-      return look == GougeLook::kClose ? between_places(pose, *obstacles[m], tool, found) : found.mm;
+      const Deepest found = deepest_place(pose, *obstacles[m], balls, look);
+      return look == GougeLook::kClose ? between_places(pose, *obstacles[m], balls, found) : found.mm;
     };
-    deepest = std::max(deepest, look == GougeLook::kRough ? rough_depth(motions[m], *obstacles[m], tool, poses)
+    deepest = std::max(deepest, look == GougeLook::kRough ? rough_depth(motions[m], *obstacles[m], balls, poses)
                                                           : largest(motions[m], poses, depth_of));
   }
   return deepest;

@@ -23,11 +23,11 @@ namespace flank::internal {
 /// of each pose. For a rough one the depth of what is far inside is estimated.
 enum class GougeLook { kRough, kQuick, kClose };
 
-/// The deepest that the flank enters an obstacle, mm, >= 0, at poses + 1 times per motion and at least 60 places along
-/// the axis; obstacles as in FitDraft (one per motion, null: none, or none at all).
+/// The deepest that flank and shank (that of the bounds) enter an obstacle, mm, >= 0, at poses + 1 times per motion and at least 60 places
+/// along the flank's axis; obstacles as in FitDraft (one per motion, null: none, or none at all).
 [[nodiscard]] double flank_gouge(const std::vector<RuledMotion>& motions,
                                  const std::vector<const ObstacleField*>& obstacles, const RadialFunction& tool,
-                                 int poses, GougeLook look = GougeLook::kQuick);
+                                 const RadiusBounds& bounds, int poses, GougeLook look = GougeLook::kQuick);
 
 /// Residuals on a grid of count_t x count_s (both >= 2) per motion with cold footpoints, so a footpoint that a pass
 /// followed onto a wrong branch shows. Samples whose footpoint is on the border are left out of all but inside_share.

@@ -72,10 +72,11 @@ double rough_score(const CoverageEstimate& estimate, double tolerance_mm) {
 }
 
 /// The score of what has its estimate, with what it enters.
-void score_with_gouge(Candidate& candidate, double tolerance_mm, int poses) {
+void score_with_gouge(Candidate& candidate, const FlankFitOptions& options, int poses) {
   const FitDraft& draft = candidate.draft;
-  candidate.estimate.gouge_mm = flank_gouge(draft.motions, draft.obstacles, draft.tool, poses, GougeLook::kRough);
-  candidate.score = rough_score(candidate.estimate, tolerance_mm);
+  candidate.estimate.gouge_mm =
+      flank_gouge(draft.motions, draft.obstacles, draft.tool, options.bounds, poses, GougeLook::kRough);
+  candidate.score = rough_score(candidate.estimate, options.tolerance_mm);
 }
 
 /// The score is what it is if the fit enters nothing.
@@ -112,12 +113,12 @@ void sort_by_score(std::vector<Candidate>& candidates) {
 /// Of candidates that are sorted by what they score if they enter nothing: looks for what they enter, the first ones first, and
 /// keeps about the `most` best. A depth only lowers a score, and costs more than the fit: it is not asked of what cannot be
 /// among them.
-void rank_with_gouges(std::vector<Candidate>& candidates, std::size_t most, double tolerance_mm) {
+void rank_with_gouges(std::vector<Candidate>& candidates, std::size_t most, const FlankFitOptions& options) {
   std::vector<double> known;  // scores, falling
   while (known.size() < candidates.size()) {
     if (known.size() >= most && candidates[known.size()].score < known[most - 1]) break;
     const std::size_t first = known.size(), count = std::min(most, candidates.size() - first);
-    parallel_for(count, [&](std::size_t k) { score_with_gouge(candidates[first + k], tolerance_mm, kQuickPoses); });
+    parallel_for(count, [&](std::size_t k) { score_with_gouge(candidates[first + k], options, kQuickPoses); });
     for (std::size_t k = first; k < first + count; ++k) known.push_back(candidates[k].score);
     std::sort(known.begin(), known.end(), std::greater<>());
   }
@@ -205,10 +206,10 @@ QuickStarts quick_starts(const Target& target, const ToolModel& tool, const Flan
   if (std::none_of(best.begin(), best.end(), [&](const Candidate& orbit) { return is_all(orbit, options); })) {
     for (Candidate& orbit : best) {
       orbit.estimate = rough_estimate(orbit.draft, few, options.tolerance_mm, kRankingPoses);
-      score_with_gouge(orbit, options.tolerance_mm, kRankingPoses);
+      score_with_gouge(orbit, options, kRankingPoses);
     }
     std::vector<Candidate> others = best_in(charts.own, nullptr, {false, true});
-    rank_with_gouges(others, static_cast<std::size_t>(options.polished_candidates), options.tolerance_mm);
+    rank_with_gouges(others, static_cast<std::size_t>(options.polished_candidates), options);
     for (Candidate& other : others) best.push_back(std::move(other));
     sort_by_score(best);
   }

@@ -220,8 +220,8 @@ Polished seen_closely(FitDraft draft, const std::vector<SurfaceSample>& samples,
   Polished seen = assess(std::move(draft), samples, options);
   /// Times as many poses: a path that runs past an edge is deepest there for a moment.
   constexpr int kOften = 4;
-  seen.estimate.gouge_mm =
-      flank_gouge(seen.draft.motions, seen.draft.obstacles, seen.draft.tool, kOften * kRankingPoses, GougeLook::kClose);
+  seen.estimate.gouge_mm = flank_gouge(seen.draft.motions, seen.draft.obstacles, seen.draft.tool, options.bounds,
+                                       kOften * kRankingPoses, GougeLook::kClose);
   if (has_values(seen.draft)) measure_written(seen.draft, options, seen.estimate);
   seen.estimate.legitimate = !seen.draft.free_tool || check_legitimacy(seen.draft.tool).legitimate;
   return seen;

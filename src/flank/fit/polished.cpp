@@ -86,7 +86,7 @@ Polished assess(FitDraft draft, const std::vector<SurfaceSample>& samples, const
   }
   if (draft.free_tool) draft.tool = clamp_tool(draft.tool, options.bounds);
   polished.estimate = estimate_coverage(samples, draft.motions, draft.tool, options.tolerance_mm, kRankingPoses);
-  polished.estimate.gouge_mm = flank_gouge(draft.motions, draft.obstacles, draft.tool, kRankingPoses);
+  polished.estimate.gouge_mm = flank_gouge(draft.motions, draft.obstacles, draft.tool, options.bounds, kRankingPoses);
   measure_motion(draft, options, polished.estimate,
                  [](const RuledMotion& motion) { return even_poses(motion, kRankingPoses); });
   polished.estimate.unheld = unheld_share(draft.motions, draft.tool, options);

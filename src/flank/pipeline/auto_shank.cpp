@@ -3,19 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
+#include "flank/pipeline/run_journal.h"
 #include "flank/results/acceptance.h"
 #include "flank/setup/shank_reach.h"
+#include "flank/setup/tool_body.h"
 
 namespace flank::internal {
 namespace {
-
-/// The progress of one of several plans, a share of the whole: its steps are in no journal.
-Progress run_of_its_own(const Progress& progress, double from, double to) {
-  Progress part = progress.part(from, to);
-  part.journal.reset();
-  return part;
-}
 
 bool fails_by(const Acceptance& acceptance, Figure figure) {
   return std::any_of(acceptance.reasons.begin(), acceptance.reasons.end(),
@@ -30,34 +27,101 @@ void note_chosen_shank(const Tool& tool, const ObstacleRequest& chosen, std::vec
                     tool.shank.empty() ? 0.0 : 2.0 * tool.shank.back().y(), *chosen.shank_length_mm));
 }
 
+/// By how much the shank of a tool is nearer than it must be, and than `least_mm`; <= 0: nowhere. None: something else comes too near, which no
+/// thinner shank helps.
+std::optional<double> missing_room(const ClearanceScene& scene, const Tool& tool, const Path& path, double least_mm) {
+  double missing = 0.0;
+  for (const ClearanceFigure& figure : measure_clearance(scene, tool, path).figures) {
+    if (figure.body == ToolBody::kShank)
+      missing = std::max(missing, std::max(figure.required_mm, least_mm) - (figure.clearance_mm - figure.bound_mm));
+    else if (!figure.kept)
+      return std::nullopt;
+  }
+  return missing;
+}
+
+Tool with_shank(const ObstacleRequest& obstacles, Tool flank) {
+  equip_tool(obstacles, flank);
+  return flank;
+}
+
+/// The radius at which the chosen shank is clear, by as much thinner as it comes too near.
+std::optional<double> clear_radius(const ClearanceScene& scene, const Path& path, double slenderest, const Tool& flank,
+                                   double least_mm, ObstacleRequest chosen) {
+  constexpr int kMost = 5;          // times: the nearest place changes
+  constexpr double kWhole = 100.0;  // radii to a hundredth of a millimetre
+  for (int k = 0; k < kMost; ++k) {
+    const Tool tool = with_shank(chosen, flank);
+    if (!(stiffness(tool).slenderness <= slenderest)) return std::nullopt;
+    const std::optional<double> missing = missing_room(scene, tool, path, least_mm);
+    if (!missing) return std::nullopt;
+    const double radius = tool.shank.back().y();
+    if (*missing <= 0.0) return radius;
+    chosen.shank_radius_mm = std::floor(kWhole * (radius - *missing)) / kWhole;
+    if (!(*chosen.shank_radius_mm > 0.0)) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
-void take_shank(const Path& path, const Box3& part, ObstacleRequest& obstacles, Tool& tool) {
-  choose_shank(tool, path, part, obstacles);
+void choose_clear_shank(const ClearanceScene& scene, const Path& path, const Box3& part, double slenderest,
+                        const Tool& flank, ObstacleRequest& obstacles) {
+  const bool open = !obstacles.shank_radius_mm;
+  choose_shank(flank, path, part, obstacles);
   obstacles.shank = "given";
-  equip_tool(obstacles, tool);
+  if (!open) return;
+  const double thick = with_shank(obstacles, flank).shank.back().y();
+  // Out of contact, or else no deeper than is allowed.
+  for (const double least_mm : {0.0, -1e300}) {
+    const std::optional<double> radius = clear_radius(scene, path, slenderest, flank, least_mm, obstacles);
+    if (radius && *radius < thick) obstacles.shank_radius_mm = radius;
+    if (radius) return;
+  }
+}
+
+void take_clear_shank(const ClearanceScene& scene, const Box3& part, double slenderest, ObstacleRequest& obstacles,
+                      Result& result) {
+  Tool flank = result.tool;
+  flank.shank.clear();
+  choose_clear_shank(scene, result.path, part, slenderest, flank, obstacles);
+  equip_tool(obstacles, result.tool);
+}
+
+std::string default_shank(const ObstacleRequest& request, bool own_body) {
+  const bool given = own_body || request.shank_length_mm || request.holder;
+  return request.shank == "given" && !given ? "auto" : request.shank;
 }
 
 template <class Job>
-Result with_auto_shank(const Job& job, const Progress& progress,
-                       const std::function<Result(const Job&, const Progress&)>& plan) {
-  Result found = plan(job, run_of_its_own(progress, 0.0, 0.5));
+Result with_chosen_shank(const Job& job, const Progress& asked,
+                         const std::function<Result(const Job&, const Progress&)>& plan) {
+  constexpr double kFirst = 0.8;  // of the progress
+  const Progress progress = with_journal(asked);
+  Result found = plan(job, progress.part(0.0, kFirst));
+  const ObstacleRequest& chosen = std::get<Job>(found.job).obstacles;
+  if (job.obstacles.shank_length_mm || !chosen.shank_length_mm) return found;
   const Acceptance first = found.acceptance();
   if (found.complete && fails_by(first, Figure::kClearance)) {
     Job with = job;
-    with.obstacles = std::get<Job>(found.job).obstacles;
-    Result again = plan(with, run_of_its_own(progress, 0.5, 1.0));
-    if (again.acceptance().reasons.size() < first.reasons.size()) found = std::move(again);
+    with.obstacles = chosen;
+    Result again = plan(with, progress.part(kFirst, 1.0));
+    if (!again.complete) {
+      found.complete = false;
+      found.journal = progress.journal;
+    } else if (again.acceptance().reasons.size() < first.reasons.size()) {
+      found = std::move(again);
+    }
   }
   note_chosen_shank(found.tool, std::get<Job>(found.job).obstacles, found.notes);
   return found;
 }
 
-template Result with_auto_shank<FitJob>(const FitJob&, const Progress&,
-                                        const std::function<Result(const FitJob&, const Progress&)>&);
-template Result with_auto_shank<CoverJob>(const CoverJob&, const Progress&,
-                                          const std::function<Result(const CoverJob&, const Progress&)>&);
-template Result with_auto_shank<TrochoidJob>(const TrochoidJob&, const Progress&,
-                                             const std::function<Result(const TrochoidJob&, const Progress&)>&);
+template Result with_chosen_shank<FitJob>(const FitJob&, const Progress&,
+                                          const std::function<Result(const FitJob&, const Progress&)>&);
+template Result with_chosen_shank<CoverJob>(const CoverJob&, const Progress&,
+                                            const std::function<Result(const CoverJob&, const Progress&)>&);
+template Result with_chosen_shank<TrochoidJob>(const TrochoidJob&, const Progress&,
+                                               const std::function<Result(const TrochoidJob&, const Progress&)>&);
 
 }  // namespace flank::internal

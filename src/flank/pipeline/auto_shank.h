@@ -5,28 +5,28 @@
 #include <string>
 #include <vector>
 
-#include "flank/job/check_fields.h"
 #include "flank/run.h"
-#include "flank/setup/tool_body.h"
+#include "flank/setup/clearance_scene.h"
 
 namespace flank::internal {
 
-/// The job, if nothing in it contradicts a shank that is chosen. Throws UsageError.
-template <class Job>
-[[nodiscard]] const Job& checked_for_auto(const Job& job) {
-  check_fields(job);
-  check_obstacles(job.obstacles, nullptr);
-  return job;
-}
+/// "auto" where nothing says what stands above the flank: no shank or holder is given, and the tool (`own_body`) brings none.
+[[nodiscard]] std::string default_shank(const ObstacleRequest& request, bool own_body);
 
 /// A shank for a path that was planned without one, into the request: as thick as the flank ends, or the standard diameter just below it, and
-/// out of the part along all of the path. Equips the tool with it.
-void take_shank(const Path& path, const Box3& part, ObstacleRequest& obstacles, Tool& tool);
+/// out of the part along all of the path. Where that comes too near something, the thickest that does not, if flank and shank stay as stiff as
+/// `slenderest` asks and the request leaves its thickness open. `flank`: the tool without it.
+void choose_clear_shank(const ClearanceScene& scene, const Path& path, const Box3& part, double slenderest,
+                        const Tool& flank, ObstacleRequest& obstacles);
 
-/// Plans with a shank that is chosen for what was found (`plan` does so for a job whose shank is "auto"). Where it comes too near all the
-/// same, plans again with it in the way from the beginning; the better of the two. A note says the shank's figures.
+/// Gives the result's tool the shank that its path lets in.
+void take_clear_shank(const ClearanceScene& scene, const Box3& part, double slenderest, ObstacleRequest& obstacles,
+                      Result& result);
+
+/// Plans; `plan` may choose a shank for what it found. Where that comes too near, plans again with it in the way from the beginning; the
+/// better of the two. A note says the shank's figures. The journal has the steps of both.
 template <class Job>
-[[nodiscard]] Result with_auto_shank(const Job& job, const Progress& progress,
-                                     const std::function<Result(const Job&, const Progress&)>& plan);
+[[nodiscard]] Result with_chosen_shank(const Job& job, const Progress& progress,
+                                       const std::function<Result(const Job&, const Progress&)>& plan);
 
 }  // namespace flank::internal

@@ -6,7 +6,7 @@
 
 #include "flank/base/tolerance_budget.h"
 #include "flank/fit/lengthen.h"
-#include "flank/setup/shank_reach.h"
+#include "flank/pipeline/auto_shank.h"
 #include "flank/setup/tool_body.h"
 
 namespace flank::internal {
@@ -23,21 +23,34 @@ Path sampled(const std::vector<RuledMotion>& motions, double tolerance_mm) {
   return path;
 }
 
-}  // namespace
-
-void choose_shank(const Setup& setup, const FitSearch& search, const Tool& flank, ObstacleRequest& obstacles) {
-  const Path path = sampled(search.motions_of(search.fit), search.options.tolerance_mm);
-  choose_shank(flank, path, setup.part.box, obstacles);
-  obstacles.shank = "given";
+/// The tool that `tried` lengthened, with shank and holder. What was added to the flank counts with the shank: nobody else asks whether that is
+/// clear.
+Tool lengthened_tool(const RadialFunction& flank, const RadialFunction& tried, const ObstacleRequest& obstacles) {
+  constexpr int kPieces = 16;
+  Tool tool;
+  tool.radial = tried;
+  equip_tool(obstacles, tool);
+  const double from = flank.axis_length(), to = tried.axis_length();
+  std::vector<Vec2> above;
+  for (int k = 0; to > from && k <= kPieces; ++k)
+    above.push_back(meridian_point(tried, from + (to - from) * k / kPieces));
+  tool.shank.insert(tool.shank.begin(), above.begin(), above.end());
+  tool.radial = flank;
+  return tool;
 }
 
-/// Lifts a shank or holder that comes too near, if the flank's length is open (lengthen.h).
+}  // namespace
+
+void choose_shank(const FitJob& job, const Setup& setup, const ClearanceScene& scene, const FitSearch& search,
+                  const Tool& flank, ObstacleRequest& obstacles) {
+  const Path path = sampled(search.motions_of(search.fit), search.options.tolerance_mm);
+  choose_clear_shank(scene, path, setup.part.box, job.radius.slenderness_max, flank, obstacles);
+}
+
 void lift_shank(const FitJob& job, const ClearanceScene& scene, FitSearch& search, std::vector<std::string>& notes) {
   if (job.tool.axis_length_mm || (!job.obstacles.shank_length_mm && !job.obstacles.holder)) return;
   const auto clear = [&](const FlankFitResult& tried) {
-    Tool tool;
-    tool.radial = tried.tool;
-    equip_tool(job.obstacles, tool);
+    const Tool tool = lengthened_tool(search.fit.tool, tried.tool, job.obstacles);
     return measure_clearance(scene, tool, sampled(search.motions_of(tried), *job.tolerance_mm)).kept();
   };
   const double more = lengthen_until_clear(search.fit, std::max(1.0, job.obstacles.clearance_mm.value_or(0.0)), clear);

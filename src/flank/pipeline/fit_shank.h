@@ -10,9 +10,9 @@
 
 namespace flank::internal {
 
-/// Chooses a shank for the motions found: as thick as the flank ends, or the standard diameter just below it, and out of the part along all
-/// of them. `flank`: the tool without it.
-void choose_shank(const Setup& setup, const FitSearch& search, const Tool& flank, ObstacleRequest& obstacles);
+/// Chooses a shank for the motions found (choose_clear_shank). `flank`: the tool without it.
+void choose_shank(const FitJob& job, const Setup& setup, const ClearanceScene& scene, const FitSearch& search,
+                  const Tool& flank, ObstacleRequest& obstacles);
 
 /// Lifts a shank or holder that comes too near, if the flank's length is open (lengthen.h).
 void lift_shank(const FitJob& job, const ClearanceScene& scene, FitSearch& search, std::vector<std::string>& notes);

@@ -98,7 +98,7 @@ void ask_for_reach(const CoverJob& job, const Setup& setup, const std::vector<Co
   std::get<CoverJob>(result.job).judge.reach_radius_mm = ball;
 }
 
-/// The job as it is; a shank that is to be chosen is that of the path found.
+/// A shank that is to be chosen is that of the path found.
 Result plan_cover(const CoverJob& request, const Progress& asked) {
   const Progress progress = with_journal(asked);
   check_fields(request);
@@ -109,9 +109,12 @@ Result plan_cover(const CoverJob& request, const Progress& asked) {
   Result result;
   result.inputs = input_stamps(job);
   const std::optional<ToolChoice> choice = tool_choice(job);
-  if (!choice) {
+  if (choice) {
+    job.obstacles.shank = default_shank(job.obstacles, false);
+  } else {
     result.tool = given_tool(job.tool.spec, job.tool.axis_length_mm,
                              "flank cover needs a given tool; flank fit finds one", result.notes);
+    job.obstacles.shank = default_shank(job.obstacles, has_body(result.tool));
     check_obstacles(job.obstacles, &result.tool);
     equip_tool(job.obstacles, result.tool);
   }
@@ -132,11 +135,15 @@ Result plan_cover(const CoverJob& request, const Progress& asked) {
   if (choice) ask_for_reach(job, setup, all, result);
   std::vector<StripSurface> surfaces = collect(job, all, result);
   watch.lap("sample");
-  if (job.obstacles.shank == "auto" && !result.path.strips.empty())
-    take_shank(result.path, setup.part.box, std::get<CoverJob>(result.job).obstacles, result.tool);
+  const bool body = has_body(result.tool) || job.obstacles.shank == "auto";
+  const ClearanceScene scene = make_clearance_scene(setup, job.obstacles, body, result.notes);
+  const bool own = request.obstacles.shank != "auto" && has_body(result.tool);  // of the catalogue
+  if (own) std::get<CoverJob>(result.job).obstacles.shank = "given";
+  if (job.obstacles.shank == "auto" && !own && !result.path.strips.empty())
+    take_clear_shank(scene, setup.part.box, RadiusRequest{}.slenderness_max, std::get<CoverJob>(result.job).obstacles,
+                     result);
   result.complete = !progress.stop();
   progress.step("verify", 0.9);
-  const ClearanceScene scene = make_clearance_scene(setup, job.obstacles, has_body(result.tool), result.notes);
   judge_result(setup, scene, std::move(surfaces), result, watch);
   if (!result.complete) result.journal = progress.journal;
   return result;
@@ -145,8 +152,7 @@ Result plan_cover(const CoverJob& request, const Progress& asked) {
 }  // namespace
 
 Result run_cover(const CoverJob& request, const Progress& asked) {
-  return request.obstacles.shank == "auto" ? with_auto_shank<CoverJob>(checked_for_auto(request), asked, plan_cover)
-                                           : plan_cover(request, asked);
+  return with_chosen_shank<CoverJob>(request, asked, plan_cover);
 }
 
 }  // namespace flank

@@ -266,7 +266,7 @@ Result search_and_judge(const Setup& setup, const ClearanceScene& scene, const T
   FitSearch search = search_fit(job, setup, spec, progress.part(0.0, judged_at), {spare_coverage, free_line_in(scene)});
   if (search.fit.motions.empty()) stop_here();  // nothing takes the place of an earlier result
   if (job.obstacles.shank == "auto" && !search.fit.motions.empty())
-    choose_shank(setup, search, found_tool(spec, search.fit.tool, {}), job.obstacles);
+    choose_shank(job, setup, scene, search, found_tool(spec, search.fit.tool, {}), job.obstacles);
   std::get<FitJob>(result.job).obstacles = job.obstacles;
   if (spec.free && !stopping()) lift_shank(job, scene, search, result.notes);
   take_fit(search, result);
@@ -292,7 +292,7 @@ bool passes(const Result& result) {
   return accept(result.tool, result.verify, job.judge, result.complete).reasons.empty();
 }
 
-/// The job as it is; a shank that is to be chosen is that of the motions found.
+/// A shank that is to be chosen is that of the motions found.
 Result plan_fit(const FitJob& request, const Progress& asked) {
   const Progress progress = with_journal(asked);
   check_job(request);
@@ -303,6 +303,7 @@ Result plan_fit(const FitJob& request, const Progress& asked) {
   result.inputs = input_stamps(job);
   const ToolSpec spec = parse_tool_spec(job.tool.spec);
   result.notes.insert(result.notes.end(), spec.notes.begin(), spec.notes.end());
+  job.obstacles.shank = default_shank(job.obstacles, spec.tool && has_body(*spec.tool));
   check_obstacles(job.obstacles, spec.tool ? &*spec.tool : nullptr);
   Stopwatch watch(result);
   progress.step("read", 0.0);
@@ -334,8 +335,7 @@ Result plan_fit(const FitJob& request, const Progress& asked) {
 }  // namespace
 
 Result run_fit(const FitJob& request, const Progress& asked) {
-  return request.obstacles.shank == "auto" ? with_auto_shank<FitJob>(checked_for_auto(request), asked, plan_fit)
-                                           : plan_fit(request, asked);
+  return with_chosen_shank<FitJob>(request, asked, plan_fit);
 }
 
 }  // namespace flank

@@ -131,7 +131,7 @@ Setup read_whole(TrochoidJob& job, std::vector<std::string>& notes) {
 /// What the flank keeps clear of, and how wide the cavity is where a tool comes.
 void surround(const TrochoidJob& job, const Setup& setup, CavityFaces& faces) {
   // As far as the thickest tool that is tried.
-  add_group_obstacles(setup, job.obstacles.clearance_mm, bounds_of(job, faces.width).front(), faces.sides);
+  add_group_obstacles(setup, job.obstacles, bounds_of(job, faces.width).front(), faces.sides);
   faces.width = width_between(side_of(faces.sides[0]), side_of(faces.sides[1]));
   if (!(faces.width.narrowest_mm > 0.0))
     throw InputError("left",
@@ -185,7 +185,7 @@ TrochoidSummary summary_of(const TrochoidJob& job, const SideFit& sides, const C
 
 /// Tool, path and figures of a plan.
 void take(const CavityPlan& plan, const TrochoidJob& job, const ToolSpec& spec, const CavityFaces& faces,
-          const Box3& part, Result& result) {
+          const ClearanceScene& scene, const Box3& part, Result& result) {
   const FlankFitResult& fit = plan.sides.fit;
   // The verdict, now and later, is about what the cavity allows, and so was the search.
   if (spec.free)
@@ -197,7 +197,7 @@ void take(const CavityPlan& plan, const TrochoidJob& job, const ToolSpec& spec, 
   if (!legitimacy.legitimate) result.notes.push_back("the tool's profile is not valid: " + legitimacy.reason);
   result.path = plan.program.path;
   if (job.obstacles.shank == "auto" && !result.path.strips.empty())
-    take_shank(result.path, part, std::get<TrochoidJob>(result.job).obstacles, result.tool);
+    take_clear_shank(scene, part, job.radius.slenderness_max, std::get<TrochoidJob>(result.job).obstacles, result);
   result.chord_bound_mm = plan.program.chord_bound_mm;
   result.plan = summary_of(job, plan.sides, plan.program, faces.width.narrowest_mm);
   if (plan.tools > 1)
@@ -208,7 +208,7 @@ void take(const CavityPlan& plan, const TrochoidJob& job, const ToolSpec& spec, 
   if (plan.program.layers.empty() && legitimacy.legitimate) note_no_cycles(job, fit.after, result.notes);
 }
 
-/// The job as it is; a shank that is to be chosen is that of the path found.
+/// A shank that is to be chosen is that of the path found.
 Result plan_trochoid(const TrochoidJob& request, const Progress& asked) {
   const Progress progress = with_journal(asked);
   check_job(request);
@@ -219,6 +219,7 @@ Result plan_trochoid(const TrochoidJob& request, const Progress& asked) {
   result.inputs = input_stamps(job);
   const ToolSpec spec = parse_tool_spec(job.tool.spec);
   result.notes.insert(result.notes.end(), spec.notes.begin(), spec.notes.end());
+  job.obstacles.shank = default_shank(job.obstacles, spec.tool && has_body(*spec.tool));
   check_obstacles(job.obstacles, spec.tool ? &*spec.tool : nullptr);
   Stopwatch watch(result);
   progress.step("read", 0.0);
@@ -237,7 +238,7 @@ Result plan_trochoid(const TrochoidJob& request, const Progress& asked) {
 
   PlanJudge judge(
       setup, scene, job,
-      [&](const CavityPlan& plan, Result& out) { take(plan, job, spec, faces, setup.part.box, out); }, watch);
+      [&](const CavityPlan& plan, Result& out) { take(plan, job, spec, faces, scene, setup.part.box, out); }, watch);
   const CavityPlan plan = search_cavity(
       job, faces, make_tool_model(spec, job.tool.axis_length_mm), options,
       [&](const CavityPlan& tried) { return judge.find(tried); }, progress);
@@ -246,7 +247,7 @@ Result plan_trochoid(const TrochoidJob& request, const Progress& asked) {
     throw InputError(
         "left", fmt::format("no tool of radius up to {:.4g} mm fits into the cavity, {:.3f} mm wide at its narrowest",
                             options.fit.bounds.largest, faces.width.narrowest_mm));
-  take(plan, job, spec, faces, setup.part.box, result);
+  take(plan, job, spec, faces, scene, setup.part.box, result);
   watch.lap("cycles");
   result.complete = !progress.stop();
 
@@ -265,9 +266,7 @@ Result plan_trochoid(const TrochoidJob& request, const Progress& asked) {
 }  // namespace
 
 Result run_trochoid(const TrochoidJob& request, const Progress& asked) {
-  return request.obstacles.shank == "auto"
-             ? with_auto_shank<TrochoidJob>(checked_for_auto(request), asked, plan_trochoid)
-             : plan_trochoid(request, asked);
+  return with_chosen_shank<TrochoidJob>(request, asked, plan_trochoid);
 }
 
 }  // namespace flank

@@ -12,7 +12,9 @@
 #include "flank/io/text/json_input.h"
 #include "flank/job/job_json.h"
 #include "flank/path_file.h"
+#include "flank/setup/tool_body.h"
 #include "flank/tool_file.h"
+#include "flank/tool_request/tool_spec.h"
 #include "flank/version.h"
 #include "flank/wheel/blade_copies.h"
 #include "flank/wheel/guarded.h"
@@ -80,6 +82,9 @@ FitJob side_job(WheelWork& work, const Names& side, const std::string& tool) {
   job.tolerance_mm = work.job.tolerance_mm;
   job.effort = work.job.effort;
   job.tool.spec = tool;
+  // The sides share one tool, whose shank is that of the whole wheel.
+  const ToolSpec spec = parse_tool_spec(tool);
+  if (!spec.tool || !has_body(*spec.tool)) job.obstacles.shank = "none";
   job.judge.reach_radius_mm = kOpenBall * work.job.tolerance_mm;
   job.judge.sample_mm = fit_spacing(work, side);
   return job;

@@ -5,6 +5,7 @@
 
 #include "fit/flat_scene.h"
 #include "flank/fit/model/fit_model.h"
+#include "flank/fit/model/shank_balls.h"
 #include "flank/threads.h"
 
 namespace flank::internal {
@@ -30,11 +31,12 @@ class FitObstacleTerms : public ::testing::Test {
     stage.clear_weight = 7.0;
     return stage;
   }
-  FitModel model_of(const FitState& start, const FitStage& stage, const ObstacleField* obstacles) const {
+  FitModel model_of(const FitState& start, const FitStage& stage, const ObstacleField* obstacles,
+                    const RadiusBounds& bounds = {}) const {
     const std::size_t count = start.motions.size();
     std::vector<const ObstacleField*> all(count, nullptr);
     all.front() = obstacles;
-    return {std::vector<const Target*>(count, blade_.get()), start, all_parameters(start.tool), {}, stage, all};
+    return {std::vector<const Target*>(count, blade_.get()), start, all_parameters(start.tool), bounds, stage, all};
   }
   static double cost_of(const FitModel& model, FitState state) {
     model.locate_obstacles(state);
@@ -108,6 +110,63 @@ TEST_F(FitObstacleTerms, GradientAgreesWithDifferencesBesideTwoFaces) {
   const FitModel model = model_of(state, stage(), &obstacles);
   ASSERT_GT(cost_of(model, state), 0.1);
   testing::expect_regulariser_gradient(model, state, 1e-4);
+}
+
+/// With its upper end towards the hub, 10 mm above it.
+RuledMotion hanging() {
+  RuledMotion motion = upright_motion({.z = 40.0});
+  motion.direction.poles.colwise() = -Vec3::UnitZ();
+  return motion;
+}
+
+TEST_F(FitObstacleTerms, AShankPaysForWhatItEntersAsMuchAsBallsOfTheFlank) {
+  const ObstacleField obstacles(only(hub(true)), *blade_, 2.0, 0.0);
+  const FitState state = state_of({hanging()}, cylinder(kRadius));
+  EXPECT_NEAR(cost_of(model_of(state, stage(), &obstacles), state), 0.0, 1e-18) << "without a shank nothing is entered";
+  RadiusBounds bounds;
+  bounds.shank_length = 20.0;
+  for (const double radius : {0.0, 3.0}) {
+    bounds.shank_radius = radius;
+    double sum = 0.0;
+    for (const double s : shank_places(state.tool, bounds))
+      sum += std::pow(std::max(0.0, kShankGrown * (radius > 0.0 ? radius : kRadius) - (40.0 - s)), 2);
+    EXPECT_GT(sum, 100.0);
+    EXPECT_NEAR(cost_of(model_of(state, stage(), &obstacles, bounds), state), 7.0 * sum / 31.0, 1e-9) << radius;
+  }
+}
+
+TEST_F(FitObstacleTerms, GradientAgreesWithDifferencesWhereAShankEnters) {
+  const ObstacleField obstacles(hub_and_wall(), *blade_, 2.0, 0.0);
+  FitState state =
+      state_of({hanging()}, RadialFunction(ToolFamily::kBarrel, kLength, Eigen::Vector3d(120.0, 6.0, 14.0)));
+  state.motions.front().direction.poles.colwise() += Vec3(0.03, 0.05, 0.0);
+  RadiusBounds bounds;
+  bounds.shank_length = 11.0;
+  for (const double radius : {0.0, 4.0}) {
+    bounds.shank_radius = radius;
+    const FitModel model = model_of(state, stage(), &obstacles, bounds);
+    ASSERT_GT(cost_of(model, state), 0.1) << radius;
+    testing::expect_regulariser_gradient(model, state, 1e-4);
+  }
+}
+
+TEST(ShankBalls, HoldTheCylinderOfTheShank) {
+  RadiusBounds bounds;
+  bounds.shank_length = 17.0;
+  for (const double radius : {0.0, 1.0, 7.0}) {
+    bounds.shank_radius = radius;
+    const RadialFunction flank = cylinder(kRadius);
+    const std::vector<double> places = shank_places(flank, bounds);
+    const double ball = shank_ball(flank, bounds), thick = radius > 0.0 ? radius : kRadius;
+    ASSERT_FALSE(places.empty());
+    EXPECT_DOUBLE_EQ(places.back(), kLength + 17.0);
+    double below = kLength;
+    for (const double s : places) {
+      EXPECT_GE(std::sqrt(ball * ball - 0.25 * (s - below) * (s - below)), thick - 1e-12) << "half way to the next";
+      below = s;
+    }
+  }
+  EXPECT_TRUE(shank_places(cylinder(kRadius), {}).empty());
 }
 
 TEST_F(FitObstacleTerms, DistancesKeptFromAPlaceNearByCostTheSame) {

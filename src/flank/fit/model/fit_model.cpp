@@ -48,7 +48,7 @@ FitModel::FitModel(std::vector<const Target*> targets, const FitState& start, st
       grid_(start.motions.front(), stage.samples_t, stage.samples_s),
       rails_(grid_, start, stage),
       tool_(start.tool, std::move(free_parameters), bounds, stage, grid_.s()),
-      obstacles_(grid_, std::move(obstacles), stage) {
+      obstacles_(grid_, std::move(obstacles), stage, start.tool, bounds) {
   FLANK_ASSERT(targets_.size() == start.motions.size());
   FLANK_ASSERT(std::all_of(start.motions.begin(), start.motions.end(),
                            [&](const RuledMotion& m) { return m.tip.count() == stage.control_points; }));

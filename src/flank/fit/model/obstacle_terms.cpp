@@ -6,6 +6,7 @@
 
 #include "flank/base/assert.h"
 #include "flank/base/parallel.h"
+#include "flank/fit/model/shank_balls.h"
 
 namespace flank::internal {
 namespace {
@@ -46,8 +47,19 @@ bool carried_on(ObstacleSample& sample, const Vec3& p, double needed_mm, double 
 
 }  // namespace
 
-ObstacleTerms::ObstacleTerms(const AxisGrid& grid, std::vector<const ObstacleField*> obstacles, const FitStage& stage)
-    : grid_(grid), stage_(stage), obstacles_(std::move(obstacles)) {}
+ObstacleTerms::ObstacleTerms(const AxisGrid& grid, std::vector<const ObstacleField*> obstacles, const FitStage& stage,
+                             const RadialFunction& start, const RadiusBounds& bounds)
+    : grid_(grid), bounds_(bounds), places_(grid.s()), stage_(stage), obstacles_(std::move(obstacles)) {
+  if (obstacles_.empty()) return;
+  const std::vector<double> above = shank_places(start, bounds);
+  places_.insert(places_.end(), above.begin(), above.end());
+}
+
+std::vector<double> ObstacleTerms::radii(const RadialFunction& tool) const {
+  std::vector<double> radii;
+  for (const double s : places_) radii.push_back(s > grid_.axis_length() ? shank_ball(tool, bounds_) : tool.at(s).r);
+  return radii;
+}
 
 void ObstacleTerms::locate(FitState& state) const {
   if (obstacles_.empty()) return;
@@ -55,8 +67,8 @@ void ObstacleTerms::locate(FitState& state) const {
   const std::size_t poses = grid_.times().size();
   const auto stride = static_cast<std::size_t>(stage_.clear_stride);
   state.obstacles.resize(obstacles_.size());
-  std::vector<double> needed;
-  for (const double s : grid_.s()) needed.push_back(std::max(0.0, state.tool.at(s).r));
+  std::vector<double> needed = radii(state.tool);
+  for (double& mm : needed) mm = std::max(0.0, mm);
   for (std::size_t m = 0; m < obstacles_.size(); ++m) {
     if (obstacles_[m] == nullptr) continue;
     std::vector<ObstacleSample>& samples = state.obstacles[m];
@@ -75,7 +87,7 @@ void ObstacleTerms::locate_pose(const FitState& state, std::size_t motion, std::
   const AxisGrid::Pose pose = grid_.pose(state.motions[motion], time);
   for (std::size_t j = 0; j < needed_mm.size(); ++j) {
     ObstacleSample& sample = samples[time * needed_mm.size() + j];
-    const Vec3 p = pose.tip + grid_.s()[j] * pose.u;
+    const Vec3 p = pose.tip + places_[j] * pose.u;
     if (!p.allFinite() || !std::isfinite(needed_mm[j])) {
       sample = no_sample(p);
       continue;
@@ -97,6 +109,7 @@ double ObstacleTerms::intrusion(const FitState& state, std::size_t motion, std::
 }
 
 double ObstacleTerms::weight() const {
+  // Of the flank's places: those of a long shank, most of which are in the air, must not make a wall beside the flank softer.
   const double asked =
       static_cast<double>(grid_.s().size()) * static_cast<double>(grid_.times().size()) / stage_.clear_stride;
   return stage_.clear_weight / (static_cast<double>(obstacles_.size()) * asked);
@@ -104,12 +117,13 @@ double ObstacleTerms::weight() const {
 
 double ObstacleTerms::cost(const FitState& state) const {
   if (obstacles_.empty()) return 0.0;
-  const std::size_t n = grid_.s().size();
+  const std::vector<double> radius = radii(state.tool);
+  const std::size_t n = radius.size();
   double sum = 0.0;
   for (std::size_t m = 0; m < obstacles_.size(); ++m) {
     if (obstacles_[m] == nullptr) continue;
     for (std::size_t k = 0; k < state.obstacles[m].size(); ++k) {
-      const double e = intrusion(state, m, k, state.tool.at(grid_.s()[k % n]).r);
+      const double e = intrusion(state, m, k, radius[k % n]);
       sum += e * e;
     }
   }
@@ -118,9 +132,12 @@ double ObstacleTerms::cost(const FitState& state) const {
 
 void ObstacleTerms::assemble(const FitState& state, const ToolTerms& tool, ArrowSystem& system) const {
   if (obstacles_.empty()) return;
-  const std::size_t n = grid_.s().size();
+  const std::vector<double> radius = radii(state.tool);
+  const std::size_t n = radius.size();
   const bool free_tool = tool.free_count() > 0;
   const Eigen::MatrixXd b = tool.gradients(state.tool);
+  // How much the shank's balls grow with the radius of the flank's upper end.
+  const double by_shank = bounds_.shank_radius > 0.0 ? 0.0 : kShankGrown;
   const double w = weight();
   PoseTerms terms;
   for (std::size_t m = 0; m < obstacles_.size(); ++m) {
@@ -131,7 +148,7 @@ void ObstacleTerms::assemble(const FitState& state, const ToolTerms& tool, Arrow
       terms.coupling.setZero(6, tool.free_count());
       bool any = false;  // most poses are clear of everything: they add nothing
       for (std::size_t j = 0; j < n; ++j) {
-        const double s = grid_.s()[j], e = intrusion(state, m, i * n + j, state.tool.at(s).r);
+        const double s = places_[j], e = intrusion(state, m, i * n + j, radius[j]);
         if (e == 0.0) continue;
         any = true;
         // e = r - allowance - D: de/dpoint = -gradient D, de/dtool = +b.
@@ -139,10 +156,12 @@ void ObstacleTerms::assemble(const FitState& state, const ToolTerms& tool, Arrow
         terms.matrix += w * g * g.transpose();
         terms.gradient += w * e * g;
         if (!free_tool) continue;
-        const auto column = b.col(static_cast<Eigen::Index>(j));
-        terms.coupling += w * g * column.transpose();
-        system.tool_matrix += w * column * column.transpose();
-        system.gradient.tail(tool.free_count()) += w * e * column;
+        const Eigen::Index at = std::min(static_cast<Eigen::Index>(j), b.cols() - 1);
+        const double by = at == static_cast<Eigen::Index>(j) ? 1.0 : by_shank;
+        const auto column = b.col(at);
+        terms.coupling += w * by * g * column.transpose();
+        system.tool_matrix += w * by * by * column * column.transpose();
+        system.gradient.tail(tool.free_count()) += w * by * e * column;
       }
       const AxisGrid::Time& time = grid_.times()[i];
       if (any) system.add_pose(static_cast<int>(m), time.first, time.basis.data(), terms, free_tool);

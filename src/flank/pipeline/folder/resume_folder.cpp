@@ -1,6 +1,7 @@
 #include "flank/pipeline/folder/resume_folder.h"
 
 #include <filesystem>
+#include <utility>
 #include <variant>
 
 #include "flank/base/sha256.h"
@@ -28,16 +29,27 @@ bool is_complete(const ResultFolder& folder) {
   return summary.is_object() && summary.value("complete", nlohmann::json()) == true;
 }
 
+/// A shank that was chosen is written into the job.
+void take_chosen_shank(const ObstacleRequest& written, ObstacleRequest& asked) {
+  if (asked.shank_length_mm || asked.holder || asked.shank == "none") return;
+  asked.shank = written.shank;
+  asked.shank_length_mm = written.shank_length_mm;
+  if (!asked.shank_radius_mm) asked.shank_radius_mm = written.shank_radius_mm;
+}
+
 /// As job.json has it, so that both can be compared. Where the tool is found or chosen the ball that it was asked to reach with is
-/// written into the job.
+/// written into the job, and so is a shank that was chosen.
 PlanJob as_written(const PlanJob& job, const PlanJob& written) {
   PlanJob asked = job_from_json(job_to_json(job), "job.json");
-  const std::optional<double> made = std::visit([](const auto& plan) { return plan.judge.reach_radius_mm; }, written);
+  const auto [ball, obstacles] =
+      std::visit([](const auto& plan) { return std::pair(plan.judge.reach_radius_mm, plan.obstacles); }, written);
   std::visit(
-      [&](auto& plan) { plan.judge.reach_radius_mm = plan.judge.reach_radius_mm ? plan.judge.reach_radius_mm : made; },
+      [ball = ball, &obstacles = obstacles](auto& plan) {
+        if (!plan.judge.reach_radius_mm) plan.judge.reach_radius_mm = ball;
+        take_chosen_shank(obstacles, plan.obstacles);
+        plan.part.file.clear();  // the part is known by its bytes
+      },
       asked);
-  // The part is known by its bytes.
-  std::visit([](auto& plan) { plan.part.file.clear(); }, asked);
   return asked;
 }
 

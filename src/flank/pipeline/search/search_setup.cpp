@@ -53,18 +53,19 @@ RadiusBounds radius_bounds(const RadiusRequest& radius, const ObstacleRequest& o
   return bounds;
 }
 
-void add_group_obstacles(const Setup& setup, const std::optional<double>& clearance_mm, double largest_radius,
+void add_group_obstacles(const Setup& setup, const ObstacleRequest& request, double largest_radius,
                          std::vector<TargetGroup>& targets) {
   /// The flank lies within a diameter of its target, and the walls of a channel beyond it count.
   constexpr double kReach = 2.0;
+  const double above = request.shank_length_mm.value_or(0.0) + request.shank_radius_mm.value_or(largest_radius);
   for (TargetGroup& group : targets) {
     ObstacleChoice choice = choose_obstacles(group.indices, setup.targets, setup.checks);
     choice.fixtures = setup.fixtures;
-    choice.clearance_mm = clearance_mm;
+    choice.clearance_mm = request.clearance_mm;
     choice.tolerance_mm = setup.tolerance_mm;
     choice.allowance_mm = setup.allowance_mm;
     ObstacleDetail detail;
-    detail.faces_within_mm = kReach * largest_radius;
+    detail.faces_within_mm = std::max(kReach * largest_radius, request.shank_length_mm ? above : 0.0);
     const Obstacles obstacles = make_obstacles(setup.part, *group.target, choice, detail);
     if (!obstacles.faces.empty())
       group.obstacles = std::make_unique<ObstacleField>(obstacles, *group.target,

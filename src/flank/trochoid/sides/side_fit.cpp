@@ -156,7 +156,7 @@ void SideFitter::rank(FitDraft draft, Candidate& candidate) const {
   cut_axial_ends(draft);
   const double tolerance = kQuickTolerances * options_.fit.tolerance_mm;
   CoverageEstimate estimate = estimate_coverage(few_, draft.motions, draft.tool, tolerance, kQuickPoses);
-  estimate.gouge_mm = flank_gouge(draft.motions, draft.obstacles, draft.tool, kQuickPoses);
+  estimate.gouge_mm = flank_gouge(draft.motions, draft.obstacles, draft.tool, options_.fit.bounds, kQuickPoses);
   const double score = worth(draft, estimate, tolerance);
   if (!candidate.draft.motions.empty() && candidate.score >= score) return;
   candidate.draft = std::move(draft);

@@ -1,0 +1,73 @@
+// A shank that nobody has given: when one is chosen, and how thick it may be.
+#include "flank/pipeline/auto_shank.h"
+
+#include <gtest/gtest.h>
+
+namespace flank::internal {
+namespace {
+
+TEST(DefaultShank, IsChosenWhereNothingSaysWhatStandsAboveTheFlank) {
+  ObstacleRequest request;
+  EXPECT_EQ(default_shank(request, false), "auto");
+  EXPECT_EQ(default_shank(request, true), "given") << "the tool brings its own";
+  request.shank = "none";
+  EXPECT_EQ(default_shank(request, false), "none");
+  request = {};
+  request.shank_length_mm = 20.0;
+  EXPECT_EQ(default_shank(request, false), "given");
+  request = {};
+  request.holder = "0:10,30:10";
+  EXPECT_EQ(default_shank(request, false), "given") << "the holder stands on the flank";
+}
+
+/// A flank of radius 5 up to z = 20, upright, along a wall that begins at z = 22 and stands `away` from its axis.
+class ChosenClearShank : public ::testing::Test {
+ protected:
+  static ClearanceScene scene(double away) {
+    ClearanceScene scene;
+    Obstacle wall{.name = "F1", .mesh = {}};
+    wall.mesh.vertices = {{-20, away, 22}, {60, away, 22}, {60, away, 80}, {-20, away, 80}};
+    wall.mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    scene.obstacles = {wall};
+    scene.options.tolerance_mm = 0.05;
+    scene.has_body = true;
+    return scene;
+  }
+  static ObstacleRequest chosen(double away, double slenderest, ObstacleRequest request = {}) {
+    Tool flank;
+    flank.radial = RadialFunction(ToolFamily::kCylinder, 20.0, Eigen::VectorXd::Constant(1, 5.0));
+    Path path;
+    path.strips.push_back({});
+    path.strips[0].poses = {{Vec3(0, 0, 0), Vec3::UnitZ()}, {Vec3(40, 0, 0), Vec3::UnitZ()}};
+    Box3 part;
+    part.add(Vec3(0, 0, 0));
+    part.add(Vec3(40, 30, 40));
+    choose_clear_shank(scene(away), path, part, slenderest, flank, request);
+    return request;
+  }
+};
+
+TEST_F(ChosenClearShank, IsAsThickAsTheFlankWhereThatIsClear) {
+  EXPECT_EQ(chosen(7.0, 8.0).shank_radius_mm, 5.0);
+  EXPECT_EQ(chosen(7.0, 8.0).shank, "given");
+}
+
+TEST_F(ChosenClearShank, IsTheThickestThatIsClear) {
+  const ObstacleRequest found = chosen(3.5, 8.0);
+  ASSERT_TRUE(found.shank_radius_mm);
+  EXPECT_LE(*found.shank_radius_mm, 3.5);
+  EXPECT_GE(*found.shank_radius_mm, 3.5 - 0.03);
+}
+
+TEST_F(ChosenClearShank, StaysAsThickAsTheFlankWhereAThinnerOneWouldBendTooMuch) {
+  EXPECT_EQ(chosen(1.0, 4.0).shank_radius_mm, 5.0);
+}
+
+TEST_F(ChosenClearShank, IsAsThickAsWasAsked) {
+  ObstacleRequest request;
+  request.shank_radius_mm = 4.0;
+  EXPECT_EQ(chosen(3.5, 8.0, request).shank_radius_mm, 4.0);
+}
+
+}  // namespace
+}  // namespace flank::internal
