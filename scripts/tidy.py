@@ -7,7 +7,7 @@ Most of clang-tidy's time goes into the headers of third parties, which it walks
 are put together in batches, each of which is read as one: only sources whose unnamed namespaces share no name go together.
 A batch that does not compile is done source by source. --deep adds the static analyser (clang-analyzer-*), which looks at
 one source at a time and takes many times as long; so does naming the files. --last 40 lints what the last 40 commits changed,
-a source for its header, too; of more than 120 sources those that were changed last.
+a source for its header, too; of more than 48 sources those that were changed last.
 
 A source includes its own header first, which proves that header complete, because nothing is precompiled here. Headers without
 a source are compiled alone.
@@ -26,7 +26,7 @@ from unity import groups_of
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 FOLDERS = ("src/flank", "apps")
 BATCH = 20
-MOST = 120  # sources of --last: a merge of many branches would take longer than all tests
+MOST = 48  # sources of --last: a merge of many branches would take longer than all tests; `make tidy` reads all
 TIDY = next((name for name in ("clang-tidy-14", "clang-tidy") if subprocess.run(
     ["which", name], capture_output=True).returncode == 0), None)
 
