@@ -20,6 +20,7 @@ RESULTS = ROOT / "bench/results"
 DOCUMENTS = ("docs/results.md", "README.md")
 TABLE = re.compile(r"(<!-- results: ([\w-]+) -->\n).*?(<!-- end -->)", re.DOTALL)
 FIGURE = re.compile(r"(<!-- (usable|seconds): ([\w-]+) -->).*?(<!-- end -->)")
+NOT_MEASURED = "not measured yet"
 MOST_NAMED = 5  # rows that fail, in the table of all sets
 
 
@@ -75,7 +76,7 @@ def cells(results):
     if "columns" in results:
         return results["columns"], results["rows"]
     wanted = results["show"].split() if "show" in results else COLUMNS
-    rows = [row for row in results["rows"] if "run" not in row or "verdict" in row]  # what was not measured yet is not shown
+    rows = [row if "run" not in row or "verdict" in row else row | {"verdict": NOT_MEASURED} for row in results["rows"]]
     shown = [COLUMNS[key] for key in wanted if any(COLUMNS[key][1](row) for row in rows)]
     return [name for name, _ in shown], [[value(row) for _, value in shown] for row in rows]
 
@@ -121,8 +122,9 @@ def seconds(name):
 def when(results):
     """Day and commit of the rows; where they are of several runs, the rows of each but the largest by their numbers."""
     runs = {}
-    shown = [row for row in results["rows"] if "verdict" in row]
-    for number, row in enumerate(shown, 1):
+    for number, row in enumerate(results["rows"], 1):
+        if "verdict" not in row:
+            continue
         runs.setdefault((row.get("measured", results["measured"]), row.get("commit", results["commit"])), []).append(number)
     most = max(runs, key=lambda run: len(runs[run]))
     others = sorted(run for run in runs if run != most)
