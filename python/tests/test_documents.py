@@ -92,11 +92,11 @@ def test_a_row_is_called_usable_only_if_it_is(results, found, end, told):
 
 def test_a_reason_is_told_without_its_place(results):
     texts = ("nothing could hold the tool: above the flank its axis runs through F46 at (1.000, 2.000, 3.000), pass 2",
-             "the motion turns by 21.3 degrees > 15 within 1 % of the face's diagonal, pass 1, tip at (0.000, 0.000, 0.000)",
+             "the motion changes direction by 21.3 degrees > 15 within 1 % of the face's diagonal, pass 1, tip at (0.000, 0.000, 0.000)",
              "F2 is gouged by 0.1000 mm > 0.05 mm at (0.000, 0.000, 0.000), pass 1")
     found = summary(**{"pass": False}, reasons=[{"figure": "", "text": text} for text in texts])
     assert results.verdict(found, 1, 600) == ("no: nothing could hold the tool: above the flank its axis runs through F46; "
-                                              "the motion turns by 21.3 degrees > 15 within 1 % of the face's diagonal; and 1 more")
+                                              "the motion changes direction by 21.3 degrees > 15 within 1 % of the face's diagonal; and 1 more")
 
 
 def test_a_command_is_measured_stopped_at_its_limit_and_never_read_from_an_older_folder(results, tmp_path):

@@ -101,7 +101,8 @@ std::string bound_text(const BoundResult& result) {
     if (sum > 0.0)
       text += fmt::format("    the contacts found reach {:.1f} % of these limits on average\n", 100.0 * found / sum);
     if (map.blocked_mm2 > 0.0)
-      text += fmt::format("    no position finishes {:.1f} % of the area\n", 100.0 * map.blocked_mm2 / map.area_mm2);
+      text += fmt::format("    {:.1f} % of the area can be finished from no position of the tool\n",
+                          100.0 * map.blocked_mm2 / map.area_mm2);
     text += fmt::format(
         "    finishing it takes at least {:.4g} mm of path: {} pass{} or more, as no pass can be longer than half the "
         "perimeter of the face ({:.4g} mm)\n",

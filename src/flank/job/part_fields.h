@@ -83,8 +83,8 @@ inline constexpr std::string_view kCutHelp =
     "climb or conventional milling, in every pass; the spindle turns clockwise seen from the holder";
 
 inline constexpr std::string_view kTurnHelp =
-    "Largest turn of the motion within 1 % of the face's diagonal, degrees. A sharper turn is a kink and does not meet "
-    "the request. 180: any";
+    "Largest change of the motion's direction over 1 % of the face's diagonal, degrees. A larger one is a kink and "
+    "does not meet the request. 180: any";
 
 inline constexpr std::string_view kReachHelp =
     "Areas where a ball of this radius would gouge a face are not accessible and do not count for --coverage. Default: "

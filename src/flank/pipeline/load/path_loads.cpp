@@ -176,7 +176,7 @@ std::vector<std::string> load_notes(const PathLoads& loads, const Path& path, co
   else
     notes.push_back(
         fmt::format("slowest at {}: {:.4g} mm/min, limited by {}; the whole path takes {:.0f} % of the time "
-                    "that it would take at this feed everywhere",
+                    "that it would take at this slowest feed",
                     where, 60.0 * loads.slowest.feed, name_of(loads.slowest.by), 100.0 * loads.share_of_constant));
   return notes;
 }
