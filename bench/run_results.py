@@ -163,10 +163,10 @@ def measure_set(arguments, name):
         done = row.get("commit") == arguments.commit and not arguments.again
         if "run" not in row or done or (arguments.only and arguments.only not in json.dumps(row)):
             continue
-        row = measure(arguments.flank, row, arguments.work, f"{name}-{number + 1}", arguments.limit) | {"commit": arguments.commit}
+        row = measure(arguments.flank, row, arguments.work, f"{name}-{number + 1}", arguments.limit) | {"commit": arguments.commit, "measured": datetime.date.today().isoformat()}
         results = json.loads(file.read_text(encoding="utf-8"))  # another row may have been changed by hand meanwhile
         results["rows"][number] = row
-        results |= {"measured": datetime.date.today().isoformat(), "source": "measured", "commit": arguments.commit,
+        results |= {"measured": row["measured"], "source": "measured", "commit": arguments.commit,
                     "command": f"bench/run_results.py FLANK {name}", "machine": processor()}
         save(file, results)
         print(f"{name}: {row['part']}, {row['request']}: {row['finished'] if 'finished' in row else ''} in {row['cpu_s']} s, {row['verdict']}", flush=True)

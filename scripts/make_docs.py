@@ -17,7 +17,7 @@ REPOSITORY_FILES = ("README.md", "ARCHITECTURE.md", "GLOSSARY.md", "CONTRIBUTING
 CONTENTS = [
     ("Tutorials", ["tutorials/" + name for name in ("first-blade", "studio", "freecad", "reading-the-report", "given-tool", "beside-a-hub", "a-cavity", "to-the-machine",
                                                     "from-python", "what-it-cannot-do")]),
-    ("Using it", ["root/README", "python", "python-api", "library", "api", "results", "comparison", "packaging"]),
+    ("Using it", ["root/README", "python", "python-api", "library", "api", "wheel", "longer-runs", "results", "comparison", "packaging"]),
     ("How it works", ["MATH", "root/ARCHITECTURE", "root/GLOSSARY", "reliability"]),
     ("Algorithms", ["algorithms/*"]),
     ("Files", ["schema/*"]),

@@ -20,6 +20,7 @@ RESULTS = ROOT / "bench/results"
 DOCUMENTS = ("docs/results.md", "README.md")
 TABLE = re.compile(r"(<!-- results: ([\w-]+) -->\n).*?(<!-- end -->)", re.DOTALL)
 FIGURE = re.compile(r"(<!-- (usable|seconds): ([\w-]+) -->).*?(<!-- end -->)")
+NOT_MEASURED = "not measured yet"
 MOST_NAMED = 5  # rows that fail, in the table of all sets
 
 
@@ -75,7 +76,7 @@ def cells(results):
     if "columns" in results:
         return results["columns"], results["rows"]
     wanted = results["show"].split() if "show" in results else COLUMNS
-    rows = [row for row in results["rows"] if "run" not in row or "verdict" in row]  # what was not measured yet is not shown
+    rows = [row if "run" not in row or "verdict" in row else row | {"verdict": NOT_MEASURED} for row in results["rows"]]
     shown = [COLUMNS[key] for key in wanted if any(COLUMNS[key][1](row) for row in rows)]
     return [name for name, _ in shown], [[value(row) for _, value in shown] for row in rows]
 
@@ -118,6 +119,23 @@ def seconds(name):
     return f"{times[0]:g} to {times[-1]:g} s (median {statistics.median(times):.0f} s)" if times else "an unknown time"
 
 
+def when(results):
+    """Day and commit of the rows; where they are of several runs, the rows of each but the largest by their numbers."""
+    runs = {}
+    for number, row in enumerate(results["rows"], 1):
+        if "verdict" not in row:
+            continue
+        runs.setdefault((row.get("measured", results["measured"]), row.get("commit", results["commit"])), []).append(number)
+    most = max(runs, key=lambda run: len(runs[run]))
+    others = sorted(run for run in runs if run != most)
+    told = "{} at {}".format(*most)
+    for run in others:
+        numbers = [str(number) for number in runs[run]]
+        listed = ", ".join(numbers[:-1]) + " and " + numbers[-1] if len(numbers) > 1 else numbers[0]
+        told += ", row{} {} {} at {}".format("s" if len(numbers) > 1 else "", listed, *run)
+    return told
+
+
 def table(name):
     if name == "trust":
         return trust()
@@ -125,9 +143,9 @@ def table(name):
     header, rows = cells(results)
     if "source" not in results:
         return "Not measured yet.\n"
-    source = f" at {results['commit']}" if results["source"] == "measured" else f", {results['source']}"
+    source = f" {when(results)}" if results["source"] == "measured" else f" {results['measured']}, {results['source']}"
     command = f"`{results['command']}`" if "--" in results["command"] else results["command"]
-    told = f"Measured {results['measured']}{source}: {command}; {results['machine']}.\n\n"
+    told = f"Measured{source}: {command}; {results['machine']}.\n\n"
     return told + lines_of([header, ["---"] * len(header), *rows])
 
 

@@ -101,7 +101,7 @@ void add_common(CLI::App& app, CommonOptions& common) {
       ->check(CLI::Range(0, 1024))
       ->group(group);
   app.add_option("--read-limit", common.read_limit_s,
-                 "Limit of processor time for reading a CAD file, seconds. Default: 10, and 30 for each MB of it")
+                 "Limit of processor time for reading a CAD file, seconds. Default: 10, plus 30 for each MB")
       ->check(CLI::Range(0.1, 1e6))
       ->group(group);
   app.add_flag("--no-cache", common.no_cache, "Neither use nor fill the cache of CAD files")->group(group);

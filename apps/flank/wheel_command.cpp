@@ -41,7 +41,7 @@ Acceptance post_whole(const WheelProgram& program, const WheelJob& job, bool qui
 void add_roughing(CLI::App& app, WheelJob& job) {
   app.add_option("--blank", job.blank,
                  "The blank, a closed body that lies where the part does: " + part_formats() +
-                     ". Default: turned about the part")
+                     ". Default: a turned blank (a body of revolution) round the part")
       ->group("Roughing");
   app.add_option("--allowance", job.allowance_mm, "Stock of a turned blank over the part, mm")
       ->capture_default_str()

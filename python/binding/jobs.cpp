@@ -135,7 +135,7 @@ void bind_verification(py::module_& module) {
       .def_readonly("notes", &PostOutcome::notes, "Warnings.")
       .def_property_readonly(
           "passed", [](const PostOutcome& p) { return p.acceptance.pass(); },
-          "Whether its links neither gouge nor collide, and its rounding keeps the tolerance.")
+          "Whether its links neither gouge nor collide, and the rounding of its numbers keeps the tolerance.")
       .def_property_readonly(
           "reasons", [](const PostOutcome& p) { return pairs_of(p.acceptance.reasons); },
           "Why it does not pass: pairs (figure, sentence).")

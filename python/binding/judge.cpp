@@ -170,7 +170,7 @@ void bind_judge(py::module_& module) {
       .def_property_readonly(
           "largest_turn_deg",
           [](const VerifyReport& r) { return r.turn ? std::optional(r.turn->angle_deg) : std::nullopt; },
-          "Largest turn of the motion within 1 % of the face's diagonal, degrees; None if it was not measured.")
+          "Largest change of the motion's direction within 1 % of the face's diagonal, degrees; None if not measured.")
       .def_readonly("worst", &VerifyReport::worst, "The deepest places, over all faces.")
       .def_property_readonly("histogram_edges_mm", numbers(&VerifyReport::histogram_edges_mm),
                              "Edges of the bins of f over the machined faces, mm. No copy.")

@@ -72,7 +72,7 @@ void bind_surface(py::class_<PartFace>& type) {
           "Knots along v, (n_v + degree + 1,). No copy.")
       .def(
           "points", [](const PartFace& f, const Doubles& uv) { return evaluate(f, uv, false); }, py::arg("uv"),
-          "Points of the surface at parameters N x 2: N x 3, mm; trims do not count.")
+          "Points of the surface at parameters N x 2: N x 3, mm; also outside the trims.")
       .def(
           "normals", [](const PartFace& f, const Doubles& uv) { return evaluate(f, uv, true); }, py::arg("uv"),
           "Unit normals at parameters N x 2: N x 3, away from the material if the face bounds a solid.");

@@ -24,6 +24,7 @@ def check(tmp_path, text):
         (("Words " + "go on " * 10 + "here. ") * 3, "words in the median"),
         (SHORT * 8 + ("One of ten sentences is so long that nobody who reads it " * 3 + "knows its end. "), "one sentence in ten"),
         (SHORT * 31, "a paragraph of 124 words"),
+        (f"- {SHORT * 8}\n" * 4, "a list of 128 words without a blank line"),
         ("Since then it is faster.", '"Since then"'),
         ("| table |\n|---|\n| covers 99 % of what is reachable |\n", "of what is reachable"),
         ("See [there](missing.md).", "no file missing.md"),
@@ -39,7 +40,8 @@ def test_a_fault_is_found(tmp_path, text, fault):
 
 def test_what_is_well_written_passes(tmp_path):
     code, errors = check(tmp_path, "# A page\n\nIt is short: see [above](#a-page).\n\n```sh\nflank fit blade.step --tolerance 0.1 -o out   # a comment\n```\n\n"
-                                   "- `what is asked for` is code here\n- a < b, and b > c\n")
+                                   "- `what is asked for` is code here\n- a < b, and b > c\n\n"
+                                   + f"- {SHORT * 8}\n\n" * 4 + f"- {SHORT * 4}\n" * 8)
     assert code == 0, errors
 
 
@@ -48,14 +50,24 @@ def test_tables_are_those_of_their_files():
     assert done.returncode == 0, done.stderr
 
 
+def script(folder, name):
+    path = sys.path[:]
+    sys.path.insert(0, str(ROOT / folder))
+    module = __import__(name)
+    sys.path[:] = path
+    return module
+
+
 @pytest.fixture
 def results():
-    path = sys.path[:]
-    sys.path.insert(0, str(ROOT / "bench"))
-    import run_results
+    return script("bench", "run_results")
 
-    sys.path[:] = path
-    return run_results
+
+def test_rows_of_another_run_are_named():
+    rows = [{"verdict": "usable", "commit": commit, "measured": day} for commit, day in (("aa", "2026-01-02"), ("bb", "2026-01-01"), ("aa", "2026-01-02"), ("bb", "2026-01-01"), ("aa", "2026-01-02"))]
+    when = script("scripts", "results").when
+    assert when({"measured": "2026-01-02", "commit": "aa", "rows": rows}) == "2026-01-02 at aa, rows 2 and 4 2026-01-01 at bb"
+    assert when({"measured": "2026-01-02", "commit": "aa", "rows": rows[:1]}) == "2026-01-02 at aa"
 
 
 def summary(**more):
@@ -80,11 +92,11 @@ def test_a_row_is_called_usable_only_if_it_is(results, found, end, told):
 
 def test_a_reason_is_told_without_its_place(results):
     texts = ("nothing could hold the tool: above the flank its axis runs through F46 at (1.000, 2.000, 3.000), pass 2",
-             "the motion turns by 21.3 degrees > 15 within 1 % of the face's diagonal, pass 1, tip at (0.000, 0.000, 0.000)",
+             "the motion changes direction by 21.3 degrees > 15 within 1 % of the face's diagonal, pass 1, tip at (0.000, 0.000, 0.000)",
              "F2 is gouged by 0.1000 mm > 0.05 mm at (0.000, 0.000, 0.000), pass 1")
     found = summary(**{"pass": False}, reasons=[{"figure": "", "text": text} for text in texts])
     assert results.verdict(found, 1, 600) == ("no: nothing could hold the tool: above the flank its axis runs through F46; "
-                                              "the motion turns by 21.3 degrees > 15 within 1 % of the face's diagonal; and 1 more")
+                                              "the motion changes direction by 21.3 degrees > 15 within 1 % of the face's diagonal; and 1 more")
 
 
 def test_a_command_is_measured_stopped_at_its_limit_and_never_read_from_an_older_folder(results, tmp_path):

@@ -5,8 +5,8 @@ usage: run_documents.py FLANK FILE
        run_documents.py FLANK help COMMAND...   (the examples in the help of these commands, one after the other in one folder)
 
 Of blocks marked `sh`, each line that begins with `flank` is run, but for those whose comment begins with "long" or "needs". A comment that
-begins with "exit N" names the exit code; else it is 0. A block marked `toml` is what the document calls plan.toml. The commands of the
-README's first block must each end within 15 s of one processor.
+begins with "exit N" names the exit code; else it is 0. A block marked `toml` is what the document calls plan.toml. Each command of the
+README must end within 15 s of one processor, and none of them is called long.
 """
 
 import os
@@ -17,7 +17,7 @@ import subprocess
 import sys
 import tempfile
 
-FIRST_COMMANDS_S = 15.0  # of one processor, each command of the first block
+README_S = 15.0  # of one processor, each command of the README
 LONGEST_S = 120.0  # a command that takes more belongs to those marked as long
 
 
@@ -64,7 +64,9 @@ def main():
     flank, document = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
     path = f"{flank.parent}:{os.environ['PATH']}"
     texts = [("sh", help_examples(flank, sys.argv[3:]))] if document.name == "help" else blocks(document.read_text(encoding="utf-8"))
-    readme, first, number, faults = document.name == "README.md", True, 0, []
+    readme, number, faults = document.name == "README.md", 0, []
+    if readme and any("# long" in block for _, block in texts):
+        faults.append(f"{document}: a command is called long; docs/longer-runs.md is for those")
     with tempfile.TemporaryDirectory() as folder:
         for language, block in texts:
             if language == "toml":
@@ -73,10 +75,9 @@ def main():
                 continue
             lines = list(commands(block))
             for command, code in lines:
-                fault = run(command, code, FIRST_COMMANDS_S if readme and first else LONGEST_S, folder, path)
+                fault = run(command, code, README_S if readme else LONGEST_S, folder, path)
                 faults += [fault] if fault else []
             number += len(lines)
-            first = first and not lines
     if number == 0:
         faults.append(f"{document}: no command was run")
     for fault in faults:

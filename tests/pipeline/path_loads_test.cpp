@@ -87,7 +87,7 @@ TEST(PathLoads, APlaceThatMustBeSlowedIsNamed) {
       load_notes(path_loads(end_mill(), scene.path, scene.arcs, asked), scene.path, asked);
   ASSERT_EQ(notes.size(), 2u);
   EXPECT_NE(notes[1].find("pass 1, CL point 1: "), std::string::npos) << notes[1];
-  EXPECT_NE(notes[1].find("held by the chip"), std::string::npos) << notes[1];
+  EXPECT_NE(notes[1].find("limited by the chip"), std::string::npos) << notes[1];
   asked.limits.deflection_mm = 1e-9;
   const std::vector<std::string> crawling =
       load_notes(path_loads(end_mill(), scene.path, scene.arcs, asked), scene.path, asked);

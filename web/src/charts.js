@@ -56,7 +56,7 @@ function errorChart(path, tolerance) {
   // A single place that nothing reached must not flatten all others.
   const most = 3.2 * tolerance;
   const y = [Math.max(low * 1.06, -most) * factor, Math.min(high * 1.06, most) * factor];
-  const plot = new Plot({ x: [0, path.total() || 1], y, xName: 'path of the tool axis at its middle, mm', yName: `error, ${unit}`,
+  const plot = new Plot({ x: [0, path.total() || 1], y, xName: 'travel of the middle of the tool axis, mm', yName: `error, ${unit}`,
     title: `Error of the machined face along the path, from ${format.error(extreme(points, 1, Math.min, 0))} to ${format.error(extreme(points, 2, Math.max, 0))}` });
   const scaled = points.map(([x, a, b]) => [x, a === null ? null : a * factor, b === null ? null : b * factor]);
   plot.band(scaled, 'band');
@@ -71,7 +71,7 @@ function regularityChart(path) {
   const points = along(path, (p, k) => [p.largest_c[k] ?? 99, 0]);
   const largest = extreme(points, 1, Math.max, 0);
   const top = Math.min(2, Math.max(1.15, 1.1 * largest));
-  const plot = new Plot({ x: [0, path.total() || 1], y: [0, top], height: 150, xName: 'path of the tool axis at its middle, mm', yName: 'axial slip (1: plunge)', yCount: 3,
+  const plot = new Plot({ x: [0, path.total() || 1], y: [0, top], height: 150, xName: 'travel of the middle of the tool axis, mm', yName: 'axial slip (1: plunge)', yCount: 3,
     title: `Axial slip along the path: the largest |c| is ${format.plain(largest)}; at 1 the tool plunges` });
   plot.curve(points, 'curve main');
   plot.limit(1, 'plunges');
@@ -81,7 +81,7 @@ function regularityChart(path) {
 function clearanceChart(path) {
   const points = along(path, (p, k) => [p.clearance_mm[k], 0]);
   const low = Math.min(0, extreme(points, 1, Math.min, 0)), high = extreme(points, 1, Math.max, 1);
-  const plot = new Plot({ x: [0, path.total() || 1], y: [low * 1.1, Math.max(high * 1.1, 1e-3)], height: 150, xName: 'path of the tool axis at its middle, mm',
+  const plot = new Plot({ x: [0, path.total() || 1], y: [low * 1.1, Math.max(high * 1.1, 1e-3)], height: 150, xName: 'travel of the middle of the tool axis, mm',
     yName: 'clearance, mm', yCount: 3, title: `Clearance of shank, holder and fixtures along the path, at least ${format.length(extreme(points, 1, Math.min, 0))}` });
   plot.curve(points, 'curve main');
   plot.limit(0, 'touches');

@@ -106,7 +106,7 @@ function stockRows(stock, cavity) {
     wanted: cavity ? `≤ ${format.plain(cavity.most_engagement)}°${stock.resolution_deg ? ` + ${format.plain(stock.resolution_deg, 2)}°` : ''}` : '',
     hint: 'in the stock simulation; the second figure of the limit is the resolution of its cells. The verdict of the whole simulation stands in this row' }];
   if (typeof stock.uncut_mm === 'number') list.push({ key: 'stock.uncut_mm', name: 'Material left between the sides', value: stock.uncut_mm, text: format.length(stock.uncut_mm, 3),
-    hint: stock.uncut_mm > 0 && stock.uncut_point ? `longest stretch, from ${at(stock.uncut_point)} into the cavity` : 'no material is left between them' });
+    hint: stock.uncut_mm > 0 && stock.uncut_point ? `longest stretch of material on a line from ${at(stock.uncut_point)} to the middle of the cavity` : 'no material is left between them' });
   if (typeof stock.entered_mm === 'number') list.push({ key: 'stock.entered_mm', name: 'Gouge, simulated', value: stock.entered_mm, text: format.error(stock.entered_mm),
     hint: 'deepest place where the simulated stock lies below a checked face' });
   list.push({ key: 'stock.left_mm3', name: 'Stock left', value: stock.left_mm3, text: `${format.plain(stock.left_mm3 / 1000, 4)}\u00a0cm³`,

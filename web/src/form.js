@@ -3,7 +3,7 @@ import { send } from './api.js';
 import { html } from './dom.js';
 
 /** What a field is called on the page, by its key: the table's names are those of files and scripts. */
-const NAMES = { tool: 'Tool', side: 'Machined side', nc: 'Program', turn_max: 'Largest turn', dry: 'Dry run' };
+const NAMES = { tool: 'Tool', side: 'Machined side', nc: 'Program', turn_max: 'Sharpest kink', dry: 'Dry run' };
 /** Meshes have no unit of their own: it is asked for where one is dropped. */
 export const UNITS = ['mm', 'cm', 'm', 'in'];
 /** Whether a file is a mesh, which has no unit: every format that is none of CAD. */

@@ -90,7 +90,7 @@ std::string bound_text(const BoundResult& result) {
     const ContactMap& map = target.map;
     text += fmt::format("  {}: {} samples on {:.4g} mm2\n", target.faces, map.points.size(), map.area_mm2);
     text += fmt::format(
-        "    touches over at most {:.4g} mm anywhere; on a tenth of the area at most {:.4g}, on half of it {:.4g}\n",
+        "    length of contact: at most {:.4g} mm anywhere, at most {:.4g} on a tenth of the area, {:.4g} on half\n",
         quantile(map, 1.0), quantile(map, 0.1), quantile(map, 0.5));
     double found = 0.0, sum = 0.0;
     for (const MapPoint& point : map.points)
@@ -101,7 +101,8 @@ std::string bound_text(const BoundResult& result) {
     if (sum > 0.0)
       text += fmt::format("    the contacts found reach {:.1f} % of these limits on average\n", 100.0 * found / sum);
     if (map.blocked_mm2 > 0.0)
-      text += fmt::format("    no position finishes {:.1f} % of the area\n", 100.0 * map.blocked_mm2 / map.area_mm2);
+      text += fmt::format("    {:.1f} % of the area can be finished from no position of the tool\n",
+                          100.0 * map.blocked_mm2 / map.area_mm2);
     text += fmt::format(
         "    finishing it takes at least {:.4g} mm of path: {} pass{} or more, as no pass can be longer than half the "
         "perimeter of the face ({:.4g} mm)\n",

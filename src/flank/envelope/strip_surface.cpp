@@ -88,11 +88,11 @@ void note_strip_surfaces(const std::vector<StripSurface>& strips, double axis_le
   for (const StripSurface& strip : strips) {
     if (is_whole(strip)) continue;
     const std::string what =
-        strip.has_envelope() ? "holds " + stretch_text(strip.stretch, axis_length) : std::string("is left out");
-    notes.push_back(
-        fmt::format("strips.step: {} {}; elsewhere the tool moves along its own axis, or another position of the tool "
-                    "removes this surface",
-                    strip.name, what));
+        strip.has_envelope() ? "contains only " + stretch_text(strip.stretch, axis_length) : std::string("is left out");
+    notes.push_back(fmt::format(
+        "strips.step: {} {}; elsewhere the tool moves along its own axis, or cuts away from another position what it "
+        "leaves here",
+        strip.name, what));
   }
 }
 

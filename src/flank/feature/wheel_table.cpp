@@ -58,11 +58,11 @@ std::string wheel_table(const WheelRoles& w) {
   text += fmt::format("  hub     {}\n  shroud  {}\n", list(w.hub), w.shroud.empty() ? "open" : list(w.shroud));
   text +=
       "\nblade     angle  height  thick  ahead / behind           edges            tips             root fillets, "
-      "buried\n";
+      "faces inside the hub\n";
   for (const WheelBlade& b : w.blades)
     text += fmt::format("{:<9} {:5.1f} {:7.2f} {:6.3f}  {:<24} {:<16} {:<16} {}{}\n", b.splitter ? "splitter" : "main",
                         b.angle_deg, b.height_mm, b.thickness_mm, list(b.ahead) + " / " + list(b.behind), list(b.edges),
-                        list(b.tips), fillets_text(b.fillets), b.buried.empty() ? "" : "; buried " + list(b.buried));
+                        list(b.tips), fillets_text(b.fillets), b.buried.empty() ? "" : "; inside " + list(b.buried));
   text += fmt::format("\nwithout a role, not machined: {}\n", list(w.rest));
   if (!w.debris.empty()) text += fmt::format("loose small faces, ignored: {}\n", list(w.debris));
   return text;

@@ -266,7 +266,8 @@ Face cut_face(const Face& face, bool along_u, double a, double b) {
   // Without trims the face is all of its surface, and the piece all of the cut one.
   if (face.loops.empty()) return piece;
   piece.loops = cut_loops(cut_loops(face.loops, along_u, a, true), along_u, b, false);
-  if (piece.loops.empty()) throw InputError(face.id + ": no area of it lies between the two cuts");
+  if (piece.loops.empty())
+    throw InputError(face.id + ": nothing of the face lies between the two lines that cut a piece from it");
   return piece;
 }
 

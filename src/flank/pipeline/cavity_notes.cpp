@@ -43,7 +43,7 @@ std::string stuck_sentence(const TrochoidJob& job, const LayerCycles& cycles) {
 std::string along_axis_sentence(const PlannedLayer& layer) {
   return fmt::format(
       "there the sides run only {:.0f} degrees off the tool's axis: a step along them moves the flank sideways by only "
-      "{:.0f} % of its length",
+      "{:.0f} % of the step's length",
       layer.off_axis_rad * kRadian, 100.0 * std::sin(layer.off_axis_rad));
 }
 

@@ -156,8 +156,8 @@ void add_turn(const VerifyReport& report, const JudgeRequest& request, Acceptanc
   if (!report.turn || !(report.turn->angle_deg > request.most_turn_deg) || request.most_turn_deg <= 0.0) return;
   const Vec3& p = report.turn->point;
   add_reason(out, Figure::kTurn,
-             fmt::format("the motion turns by {:.1f} degrees > {:.4g} within 1 % of the face's diagonal, pass {}, tip "
-                         "at ({:.3f}, {:.3f}, {:.3f})",
+             fmt::format("the motion changes direction by {:.1f} degrees > {:.4g} within 1 % of the face's diagonal, "
+                         "pass {}, tip at ({:.3f}, {:.3f}, {:.3f})",
                          report.turn->angle_deg, request.most_turn_deg, report.turn->strip + 1, p.x(), p.y(), p.z()));
 }
 
@@ -249,7 +249,7 @@ void accept_stock(const StockReport& stock, double most_engagement_deg, double t
     const Vec3& p = stock.uncut_point;
     add_reason(
         acceptance, Figure::kStock,
-        fmt::format("stock simulation: {:.3f} mm of material left between the sides, before ({:.3f}, {:.3f}, {:.3f})",
+        fmt::format("stock simulation: {:.3f} mm of material left in front of the side at ({:.3f}, {:.3f}, {:.3f})",
                     stock.uncut_mm, p.x(), p.y(), p.z()));
   }
   if (stock.entered_mm > tolerance_mm + kSpareCells * stock.cell_mm)

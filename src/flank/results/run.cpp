@@ -36,7 +36,7 @@ std::string error_lines(const Result& result) {
   text += fmt::format("  path        {} pass{}, {} CL points, chord error {:.2g} mm, largest axial slip |c| {:.3f}{}\n",
                       result.path.strips.size(), result.path.strips.size() == 1 ? "" : "es", result.path.pose_count(),
                       result.chord_bound_mm, result.largest_c,
-                      v.turn ? fmt::format(", largest turn {:.1f} degrees", v.turn->angle_deg) : "");
+                      v.turn ? fmt::format(", largest change of direction {:.1f} degrees", v.turn->angle_deg) : "");
   text += fmt::format("  curvature   smallest radius {} at the tip, {} at the holder end\n",
                       bend_text(result.bends.tip_mm), bend_text(result.bends.holder_end_mm));
   if (was_stopped(result)) return text + "  checked     no: interrupted\n";

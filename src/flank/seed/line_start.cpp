@@ -50,12 +50,11 @@ LineStartStatus status_of(const Propagation& backward, const Propagation& forwar
 
 std::string message_of(const LineStartReport& report) {
   char text[320];
-  std::snprintf(
-      text, sizeof text,
-      "the first tool axis was moved %.4g mm along the face in %d steps, from %s to %s; deviation from sliding on "
-      "the face %.2g (%.2g before the search, %.2g at worst; 0: in contact all along)",
-      report.travel_mm, report.backward_steps + report.forward_steps, reason(report.backward), reason(report.forward),
-      report.movability_after, report.movability_before, report.worst_movability);
+  std::snprintf(text, sizeof text,
+                "the first tool axis was moved %.4g mm along the face in %d steps, from %s to %s; loss of contact "
+                "%.2g (0: in contact all along; %.2g before the search, %.2g at worst)",
+                report.travel_mm, report.backward_steps + report.forward_steps, reason(report.backward),
+                reason(report.forward), report.movability_after, report.movability_before, report.worst_movability);
   return text;
 }
 

@@ -24,8 +24,9 @@ bool holds(const std::vector<int>& faces, std::size_t face) {
 Obstacle as_obstacle(FaceTriangles face, const std::string& name, ObstacleRole role, double deviation,
                      std::vector<std::string>& notes) {
   if (face.deviation_mm > 2.0 * deviation)
-    notes.push_back(fmt::format("{}: for clearances it is triangles within {:.3g} mm; their +- contains that", name,
-                                face.deviation_mm));
+    notes.push_back(fmt::format(
+        "{}: clearances to it are measured to triangles that follow it within {:.3g} mm; their +- includes that", name,
+        face.deviation_mm));
   if (face.beyond_border)
     notes.push_back(
         name + ": its border could not be followed; clearances are measured to triangles that may reach beyond it");

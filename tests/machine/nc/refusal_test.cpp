@@ -94,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(Siemens, Refused,
                                            Damage{"siemens_orivect", "A3=0.6 B3=0.0", "A3=0.6", "three components"},
                                            Damage{"siemens_orivect", "ORIWKS ORIVECT", "ORIWKS SPLINE", "\"SPLINE\""},
                                            Damage{"siemens_oriaxes", "X12.0625", "ORIVECT X12.0625",
-                                                  "joining of blocks changes"}));
+                                                  "on a great circle) changes between feed moves"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Heidenhain, Refused,

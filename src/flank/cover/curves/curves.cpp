@@ -197,8 +197,10 @@ SmoothedCurves smoothed_curves(const TileScene& dense, const std::vector<CoverSt
 }
 
 std::string counts_text(const CurveCounts& counts) {
-  return fmt::format("{} axis curves traced, {} long enough, {} straight; {} clusters, {} groups, {} possible passes",
-                     counts.seeds, counts.straight, counts.lines, counts.clusters, counts.groups, counts.strips);
+  return fmt::format(
+      "{} curves of the tool axis traced: {} long enough, {} of them straight enough to follow; merged to {} lines "
+      "in {} groups, from which {} passes are possible",
+      counts.seeds, counts.straight, counts.lines, counts.clusters, counts.groups, counts.strips);
 }
 
 }  // namespace flank::internal

@@ -39,7 +39,7 @@ struct SmoothedCurves {
 void code(StepCodec& codec, SmoothedCurves& smoothed);
 [[nodiscard]] SmoothedCurves smoothed_curves(const TileScene& dense, const std::vector<CoverStrip>& strips);
 
-/// The counts as a note for the user: "5321 integral curves, 1712 long enough, ...".
+/// The counts as a note for the user: "5321 curves of the tool axis traced: 1712 long enough, ...".
 [[nodiscard]] std::string counts_text(const CurveCounts& counts);
 
 }  // namespace flank::internal

@@ -235,7 +235,8 @@ void read_meaning(const TomlTable& table, Machine& machine) {
   const NcLanguageRow& language = row_of(machine.dialect.language);
   const std::string title(language.title);
   if (machine.positions == NcPositions::kJoint && machine.join != NcJoin::kAxes)
-    table.refuse("join", "axis positions must be joined by \"axes\"");
+    table.refuse("join",
+                 "positions = \"joint\" (axis positions) needs join = \"axes\" (blocks run linearly in the axes)");
   if (!language.great_circle && machine.join != NcJoin::kAxes)
     table.refuse("join", title + " can join blocks by \"axes\" only");
   if (!language.vectors && machine.positions == NcPositions::kTipVector)

@@ -26,7 +26,7 @@ WorkSetup setup_of(const VerifyJob& request, const NcProgram& program, Verificat
       throw InputError(*request.nc.file + ": its header: " + e.what());
     }
   outcome.notes.push_back(
-      "neither `setup` nor the program gives the set-up: the part's origin is taken at the table's");
+      "neither `setup` nor the program gives the set-up: the part's origin is assumed at the table's origin");
   return {};
 }
 

@@ -162,9 +162,9 @@ PathLoads path_loads(const Tool& tool, const Path& path, const PathArcs& arcs, c
 std::vector<std::string> load_notes(const PathLoads& loads, const Path& path, const CuttingRequest& request) {
   if (loads.engaged == 0) return {"nothing of the path is engaged: the feed is the same everywhere"};
   std::vector<std::string> notes{fmt::format(
-      "the feed follows the load, at most {:.4g} mm/min; largest (and 95 % of the time below): chip {:.4f} mm "
-      "({:.4f}), "
-      "force {:.4g} N ({:.4g}), power {:.4g} W ({:.4g}), deflection of the tip {:.2f} um ({:.2f})",
+      "the feed follows the load, at most {:.4g} mm/min; largest values (in brackets, those exceeded 5 % of the time): "
+      "chip {:.4f} mm ({:.4f}), force {:.4g} N ({:.4g}), power {:.4g} W ({:.4g}), deflection of the tip {:.2f} um "
+      "({:.2f})",
       60.0 * request.most_feed, loads.chip_mm.peak, loads.chip_mm.p95, loads.force_n.peak, loads.force_n.p95,
       loads.power_w.peak, loads.power_w.p95, 1e3 * loads.deflection_mm.peak, 1e3 * loads.deflection_mm.p95)};
   const std::string where =
@@ -175,8 +175,8 @@ std::vector<std::string> load_notes(const PathLoads& loads, const Path& path, co
                     loads.too_much, name_of(loads.slowest.by), where, 60.0 * kCrawlShare * request.feed));
   else
     notes.push_back(
-        fmt::format("slowest at {}: {:.4g} mm/min, held by {}; the feed by load takes {:.0f} % of the time "
-                    "that this feed would take everywhere",
+        fmt::format("slowest at {}: {:.4g} mm/min, limited by {}; the whole path takes {:.0f} % of the time "
+                    "that it would take at this slowest feed",
                     where, 60.0 * loads.slowest.feed, name_of(loads.slowest.by), 100.0 * loads.share_of_constant));
   return notes;
 }

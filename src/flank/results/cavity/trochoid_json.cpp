@@ -10,10 +10,11 @@ namespace {
 
 // A slot or a hole in full material has an engagement by its nature, which no limit holds.
 std::string entry_text(const LayerSummary& layer) {
-  const std::string how = layer.entry == "ramp" ? fmt::format("{:.2f} mm deep per run, slope {:.2f} degrees",
-                                                              layer.entry_depth_mm, layer.entry_slope_deg)
-                                                : fmt::format("{:.2f} mm deep, each after the first {:.2f} mm wide",
-                                                              layer.entry_depth_mm, layer.entry_width_mm);
+  const std::string how =
+      layer.entry == "ramp"
+          ? fmt::format("{:.2f} mm deep per run, slope {:.2f} degrees", layer.entry_depth_mm, layer.entry_slope_deg)
+          : fmt::format("{:.2f} mm deep, each after the first cuts a width of {:.2f} mm", layer.entry_depth_mm,
+                        layer.entry_width_mm);
   return fmt::format("entry by {}: {}, {:.1f} mm, removed {:.1f} mm3, engagement {:.1f} degrees (no limit)",
                      layer.entry, how, layer.entry_mm, layer.entry_mm3, layer.entry_deg);
 }

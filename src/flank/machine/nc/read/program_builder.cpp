@@ -293,7 +293,9 @@ void ProgramBuilder::check_feed_move() {
   if (const std::string what = unknown(); !what.empty()) place_.refuse("a feed move before " + what + " is stated");
   if (!cut_) return;  // modes may change as they like until something is cut
   if (program_.feed_mode != mode_) place_.refuse("the feed mode changes between feed moves");
-  if (program_.join != join_) place_.refuse("the joining of blocks changes between feed moves");
+  if (program_.join != join_)
+    place_.refuse(
+        "how the tool turns within a block (linearly in the axes, or on a great circle) changes between feed moves");
 }
 
 /// mm/min, or 1/min in inverse time: there controls demand F in every feed block, because it says how long this block

@@ -225,8 +225,9 @@ std::string write_heidenhain(std::span<const NcProgram> operations, const NcDial
   if (operations.front().feed_mode == NcFeedMode::kInverseTime)
     throw UsageError("dialect", "heidenhain", "has no inverse time; expected a feed in mm/min");
   if (operations.front().positions == NcPositions::kJoint)
-    throw UsageError("dialect", "heidenhain",
-                     "always compensates the tool's length; expected programs of the controlled point");
+    throw UsageError(
+        "dialect", "heidenhain",
+        "always compensates the tool's length; expected coordinates of the controlled point, not axis positions");
   return HeidenhainWriter(operations, dialect).write();
 }
 
