@@ -295,9 +295,6 @@ export class Chooser {
 
   /** The browser keeps few pictures at a time: one that is gone gives its own back. */
   dispose() {
-    clearTimeout(this.stage?.rest);
-    this.stage?.controls?.dispose();
-    this.stage?.renderer.dispose();
-    this.stage?.renderer.forceContextLoss();
+    this.stage?.dispose();
   }
 }

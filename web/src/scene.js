@@ -13,13 +13,18 @@ const NARROW = 620;
 /** Without a graphics card: milliseconds of rest after which a picture is drawn again with smooth edges, twice as wide and high. */
 const REST = 250, SHARP = 2;
 
-/** Whether the processor draws: smooth edges cost it as much as all else. Throws if nothing does. */
+/** Whether the processor draws, once that was asked. */
+let software = null;
+
+/** The same; smooth edges cost it as much as all else. Throws if nothing draws. */
 function isSoftware() {
+  if (software !== null) return software;
   const gl = document.createElement('canvas').getContext('webgl2');
   if (!gl) throw new Error('this browser offers no WebGL 2');
   const names = gl.getExtension('WEBGL_debug_renderer_info'), name = names ? gl.getParameter(names.UNMASKED_RENDERER_WEBGL) : '';
   gl.getExtension('WEBGL_lose_context')?.loseContext();
-  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+  software = /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+  return software;
 }
 
 export class Stage {
@@ -47,6 +52,14 @@ export class Stage {
     this.camera.add(this.key, this.key.target);
     this.hold(new Vector3());
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
+  }
+
+  /** Gives the graphics back: a browser has room for some pictures only. */
+  dispose() {
+    clearTimeout(this.rest);
+    this.controls.dispose();
+    this.renderer.dispose();
+    this.renderer.forceContextLoss();
   }
 
   /** Controls learn the upward direction only when they are made. */
