@@ -44,7 +44,8 @@ Acceptance post_whole(const WheelProgram& program, const WheelRequest& job, bool
 void add_more(CLI::App& app, WheelRequest& job, WheelProgram& program) {
   app.add_option("-o,--output", job.folder, "Folder for the results")->required();
   const auto add_short = [&](const char* flag, bool& member, const char* help) {
-    app.add_flag_callback(flag, [&member] { member = false; }, help);
+    app.add_flag_callback(
+        flag, [&member] { member = false; }, help);
   };
   add_short("--no-rough", job.rough, "As --rough off");
   add_short("--no-edges", job.edges, "As --edges off");

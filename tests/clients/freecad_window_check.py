@@ -70,8 +70,8 @@ def look(view, close=1.0):
 
 
 def widget(kind, name):
-    """A widget of the whole program by its class and the name of its object, or None."""
-    return next((one for one in QtWidgets.QApplication.allWidgets() if isinstance(one, kind) and one.objectName() == name), None)
+    """The widget of that class and name which is seen, or None."""
+    return next((one for one in QtWidgets.QApplication.allWidgets() if isinstance(one, kind) and one.objectName() == name and one.isVisible()), None)
 
 
 def buttons():
@@ -156,7 +156,7 @@ def stopped(operation):
 
     def watch():
         dialog = widget(QtWidgets.QProgressDialog, "FlankProgress")
-        if dialog is None or not dialog.isVisible():
+        if dialog is None:
             return
         seen["shares"].append(dialog.value())
         if "best" in dialog.labelText():

@@ -41,6 +41,7 @@ test('the faces of a wheel get their roles, and the job says what it found', asy
   await keep(page, 'studio-wheel');
 });
 
+// Roughing and edges take most of the time of a wheel; the check by samples alone is quick, and its verdict is no.
 test('operations are listed as they are done; Stop keeps them, and Resume goes on with the others', async () => {
   for (const [name, value] of Object.entries({ rough: 'off', edges: 'off', sample_mm: '0.5' })) await fill(page, name, value);
   const line = await page.value('document.querySelector("#line").textContent');
@@ -79,7 +80,10 @@ test('the verdict is the exit code, and the report shows the whole', async () =>
   const [job] = (await studio.get('state')).jobs, state = job.exit === 0 ? 'pass' : 'fail';
   assert.equal(await page.value('document.querySelector(".livehead .pill").dataset.exit'), String(job.exit));
   assert.ok(await page.value(`document.querySelector(".livehead .pill").classList.contains("${state}")`));
+  assert.equal(await page.value('document.querySelector("[data-operation=whole]").getAttribute("aria-pressed")'), 'true');
   await page.until(report(`d.querySelector("#verdict").classList.contains("${state}")`), LONG);
+  const passes = JSON.parse(await (await fetch(`${studio.url}api/jobs/${job.id}/files/path.json`)).text()).strips.length;
+  assert.match(await page.value(report('d.querySelector("#subtitle").textContent')), new RegExp(`\\b${passes} passes`));
   await keep(page, 'studio-wheel-result');
 });
 

@@ -140,9 +140,8 @@ Addresses members(const WheelRequest& job) {
 
 template <class Job>
 class Fields : public testing::Test {};
-using Jobs =
-    testing::Types<FitJob, CoverJob, TrochoidJob, VerifyJob, PostJob, DesignJob, BoundJob, CorrectJob, RedesignJob,
-                   WheelRequest>;
+using Jobs = testing::Types<FitJob, CoverJob, TrochoidJob, VerifyJob, PostJob, DesignJob, BoundJob, CorrectJob,
+                            RedesignJob, WheelRequest>;
 TYPED_TEST_SUITE(Fields, Jobs);
 
 TYPED_TEST(Fields, EveryMemberIsInTheTableOnce) {

@@ -132,6 +132,13 @@ export class Live {
     }));
   }
 
+  /** Says in the table that the whole is shown: no operation. */
+  showWhole() {
+    this.shown = '';
+    this.list();
+    return this.shown;
+  }
+
   /** Which of the buttons are there. */
   offer() {
     const { job } = this, over = job.state === 'done';

@@ -61,6 +61,8 @@ export class ResultPane {
     if (key === this.made) return;
     this.made = key;
     this.job = job;
+    // Once the whole of a wheel is there, it is what is wanted.
+    if (hasReport(job)) this.operation = this.live.showWhole();
     this.reports();
     byId('wide').hidden = !hasReport(job);
     if (hasReport(job) && !this.machining) {

@@ -9,7 +9,8 @@
 
 namespace flank::internal::accepted {
 
-inline constexpr Accepted kSectors{"expected a number from 1 to 1000", [](double x) { return x >= 1.0 && x <= 1000.0; }};
+inline constexpr Accepted kSectors{"expected a number from 1 to 1000",
+                                   [](double x) { return x >= 1.0 && x <= 1000.0; }};
 
 }  // namespace flank::internal::accepted
 
@@ -22,11 +23,12 @@ void visit_wheel_work(Request& wheel, Visitor& visit) {
   visit(FieldInfo{"rough", "", "", "off: the channels are not roughed", kAny, Spelling::kOnOff}, wheel.rough);
   visit(FieldInfo{"edges", "", "", "off: leading and trailing edges are not machined", kAny, Spelling::kOnOff},
         wheel.edges);
-  visit(FieldInfo{"blank", "", kRoughing,
-                  "The blank, a closed body that lies where the part does, as a CAD or mesh file. Default: turned about "
-                  "the part",
-                  kAny, Spelling::kFile},
-        wheel.blank);
+  visit(
+      FieldInfo{"blank", "", kRoughing,
+                "The blank, a closed body that lies where the part does, as a CAD or mesh file. Default: turned about "
+                "the part",
+                kAny, Spelling::kFile},
+      wheel.blank);
   visit(FieldInfo{"allowance", "mm", kRoughing, "Stock of a turned blank over the part", kLength}, wheel.allowance_mm);
   visit(FieldInfo{"most_engagement", "deg", kRoughing,
                   "Largest engagement in the simulation of roughing; 180 allows slots", kTurn, Spelling::kPlain,
@@ -75,8 +77,8 @@ void visit_fields(Request& wheel, Visitor&& visit) {
                   "root fillets take",
                   kAny, Spelling::kFileOrText},
         wheel.tool);
-  visit(FieldInfo{"sample", "mm", "",
-                  "Fast check at this spacing, without the proof. Default: samples and a proof", kLength},
+  visit(FieldInfo{"sample", "mm", "", "Fast check at this spacing, without the proof. Default: samples and a proof",
+                  kLength},
         wheel.sample_mm);
   visit_wheel_work(wheel, visit);
   visit_wheel_roles(wheel, visit);
