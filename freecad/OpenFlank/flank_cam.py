@@ -79,9 +79,10 @@ def to_cam_job(obj, spindle, feed, machine=MACHINE):
     custom = module("Path.Op.Custom", "PathScripts.PathCustom")
     step(obj.Document)
     job = jobs.Create(f"{obj.Label} job", [obj.Proxy.part(obj)])
-    step(obj.Document)
     for old in list(job.Tools.Group):
+        # Its tool bit ended the step, so it came outside of any, and goes there: undo would bring it back.
         job.Document.removeObject(old.Name)
+    step(obj.Document)
     tool = bits.Factory.CreateFrom(os.path.join(obj.Folder, "tool.fctb"))
     step(obj.Document)
     controller = controllers.Create(f"{obj.Label} tool", tool=tool, toolNumber=1)

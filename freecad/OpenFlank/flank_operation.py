@@ -263,6 +263,7 @@ def move_tool(obj, share, strips=None):
     places = [(number, k, pose) for number, poses in enumerate(strips or poses_of(obj.Folder), 1) for k, pose in enumerate(poses, 1)]
     number, k, pose = places[round(share * (len(places) - 1))]
     obj.ToolShape.Placement = placed(pose)
+    obj.ToolShape.purgeTouched()  # a tool that is looked at elsewhere is no reason to plan anew
     return number, k
 
 

@@ -120,7 +120,7 @@ def panel(operation):
     before = list(operation.ToolShape.Placement.Base)
     slider.setValue(500)
     found = {"moved": (operation.ToolShape.Placement.Base - FreeCAD.Vector(*before)).Length, "buttons": sorted(buttons()), "panel_picture": picture("workbench-panel")}
-    objects, steps = len(document.Objects), document.UndoCount
+    objects, steps, made = len(document.Objects), document.UndoCount, operation.Folder
     buttons()["To CAM job"].click()
     settle(1.0)
     found["job_objects"] = len(document.Objects) - objects
@@ -130,6 +130,7 @@ def panel(operation):
     while document.UndoCount > steps:
         document.undo()
     found["undone_job"] = len(document.Objects) - objects
+    found["planned_again"] = operation.Folder != made
     shown = flank_panel.open_panel(operation)
     shown.write(os.path.join(folder, "written.ngc"))
     found["written"] = shown.message.text().splitlines()[0]

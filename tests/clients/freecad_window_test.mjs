@@ -79,6 +79,8 @@ test('the CAM job is posted by FreeCAD itself, and its program does the same as 
 
 test('undo takes the job away again', () => assert.equal(found.panel.undone_job, 0));
 
+test('neither the player nor the job plans the operation anew', () => assert.equal(found.panel.planned_again, false));
+
 test('Stop keeps the best, and says so', () => {
   const { verdict, exit, label, shares, icon } = found.stopped;
   assert.equal(exit, 1);
