@@ -1,5 +1,6 @@
 """A result as a job of FreeCAD's own CAM workbench (Path before 1.0): a tool bit, its controller, and an operation with the moves."""
 
+import contextlib
 import importlib
 import os
 import re
@@ -61,10 +62,16 @@ def with_codes(lines):
     return out
 
 
-def step(document):
-    """Begins a step of undo: with a window FreeCAD ends the one that is open whenever it makes a tool bit."""
-    document.commitTransaction()
+@contextlib.contextmanager
+def one_step(document, bits):
+    """All that is done in it is one step of undo: with a window FreeCAD's maker of tool bits would begin and end steps of its own."""
+    usual, bits.Factory = bits.Factory, bits.ToolBitFactory()
     document.openTransaction("CAM job")
+    try:
+        yield
+    finally:
+        bits.Factory = usual
+        document.commitTransaction()
 
 
 def to_cam_job(obj, spindle, feed, machine=MACHINE):
@@ -76,24 +83,24 @@ def to_cam_job(obj, spindle, feed, machine=MACHINE):
     jobs = module("Path.Main.Job", "PathScripts.PathJob")
     bits = module("Path.Tool.Bit", "PathScripts.PathToolBit")
     controllers = module("Path.Tool.Controller", "PathScripts.PathToolController")
-    custom = module("Path.Op.Custom", "PathScripts.PathCustom")
-    step(obj.Document)
-    job = jobs.Create(f"{obj.Label} job", [obj.Proxy.part(obj)])
-    for old in list(job.Tools.Group):
-        # Its tool bit ended the step, so it came outside of any, and goes there: undo would bring it back.
-        job.Document.removeObject(old.Name)
-    step(obj.Document)
-    tool = bits.Factory.CreateFrom(os.path.join(obj.Folder, "tool.fctb"))
-    step(obj.Document)
-    controller = controllers.Create(f"{obj.Label} tool", tool=tool, toolNumber=1)
-    controller.SpindleSpeed, controller.HorizFeed, controller.VertFeed = spindle, feed / SECONDS, feed / SECONDS
+    with one_step(obj.Document, bits):
+        job = jobs.Create(f"{obj.Label} job", [obj.Proxy.part(obj)])
+        for old in list(job.Tools.Group):
+            job.Document.removeObject(old.Name)
+        tool = bits.Factory.CreateFrom(os.path.join(obj.Folder, "tool.fctb"))
+        if FreeCAD.GuiUp:
+            module("Path.Base.Gui.IconViewProvider", "PathScripts.PathIconViewProvider").Attach(tool.ViewObject, "ToolBit")
+            tool.ViewObject.Visibility = False  # it would stand at the origin
+        add_moves(obj, job, controllers.Create(f"{obj.Label} tool", tool=tool, toolNumber=1), lines, (spindle, feed / SECONDS))
+    return job
+
+
+def add_moves(obj, job, controller, lines, rates):
+    """The controller of the tool and the operation with the moves; `rates`: of the spindle, 1/min, and of the feed, mm/s."""
+    controller.SpindleSpeed, controller.HorizFeed, controller.VertFeed = rates[0], rates[1], rates[1]
     job.Proxy.addToolController(controller)
-    operation = custom.Create(f"{obj.Label} path", parentJob=job)
-    if FreeCAD.GuiUp:
-        tool.ViewObject.Visibility = False  # it would stand at the origin
+    operation = module("Path.Op.Custom", "PathScripts.PathCustom").Create(f"{obj.Label} path", parentJob=job)
     operation.ToolController, operation.Gcode = controller, lines
     job.PostProcessor = "linuxcnc"
     job.PostProcessorArgs = "--no-show-editor --precision 5"
     job.Document.recompute()
-    job.Document.commitTransaction()
-    return job
