@@ -62,6 +62,8 @@ struct Subcommand {
 void say_stopped(const std::string& folder);
 /// The same where nothing was found yet, but steps are done.
 void say_steps_kept(const std::string& folder);
+/// The same of a wheel, whose operations are a folder each.
+void say_operations_kept(const std::string& folder);
 /// The same where nothing is kept: "stopped by SIGTERM".
 [[nodiscard]] std::string stopped_by();
 /// For a command without a best so far: a signal ends it at once, with a line that says so. What it writes is whole or

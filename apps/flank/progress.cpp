@@ -76,6 +76,11 @@ void say_steps_kept(const std::string& folder) {
                   stopped_by(), printable(folder)));
 }
 
+void say_operations_kept(const std::string& folder) {
+  say(fmt::format("{}; the finished operations are in {}; the same command continues", stopped_by(),
+                  printable(folder)));
+}
+
 void end_on_signals() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, on_end);
 }

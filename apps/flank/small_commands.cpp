@@ -95,7 +95,7 @@ Subcommand add_fields(CLI::App& parser) {
   CLI::App* app =
       parser.add_subcommand("fields", "Print the options of a command as JSON, with units, ranges, defaults and help");
   auto command = std::make_shared<std::string>();
-  app->add_option("COMMAND", *command, "fit, cover, trochoid, verify, post or design")->required();
+  app->add_option("COMMAND", *command, "fit, cover, trochoid, verify, post, design or wheel")->required();
   app->footer("Example: flank fields fit");
   return {app,
           [command](const CommonOptions&) {

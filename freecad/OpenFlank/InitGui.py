@@ -9,11 +9,11 @@ class OpenFlankWorkbench(FreeCADGui.Workbench):
     ToolTip = "A tool shaped for a face, its five-axis motion, and a verdict"
 
     def Initialize(self):
-        import flank_gui  # registers the command
+        import flank_gui  # registers the commands
 
-        self.Icon = flank_gui.NewOperation().GetResources()["Pixmap"]
-        self.appendToolbar("OpenFlank", ["OpenFlank_Operation"])
-        self.appendMenu("OpenFlank", ["OpenFlank_Operation"])
+        self.Icon = flank_gui.icon()
+        self.appendToolbar("OpenFlank", list(flank_gui.COMMANDS))
+        self.appendMenu("OpenFlank", list(flank_gui.COMMANDS))
 
     def GetClassName(self):
         return "Gui::PythonWorkbench"

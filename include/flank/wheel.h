@@ -1,36 +1,16 @@
 /// A whole wheel from one part: roles, operations, copies and one verdict (docs/wheel.md).
 #pragma once
 
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "flank/progress.h"
+#include "flank/wheel_request.h"
 
 namespace flank {
 
-/// What is asked of a wheel. Faces are lists as "F1,F3"; what is not given is found.
-struct WheelRequest {
-  std::string part;
-  std::string folder;               ///< for the results; operations that are finished in it are not done again
-  std::optional<std::string> unit;  ///< of a mesh: mm, cm, m or in
-  double tolerance_mm = 0.05;
-  double least_coverage = 0.97;     ///< share of what is open of the flow surface, within tolerance
-  std::string effort = "quick";     ///< of the fits: quick, normal or thorough
-  std::optional<std::string> tool;  ///< a tool.json, a family or "free"
-  std::optional<double> sample_mm;  ///< judge by samples alone; their spacing in the fits
-  bool rough = true, edges = true;
-  std::optional<std::string> blank;    ///< a closed body, CAD or mesh; none: turned about the part
-  double allowance_mm = 0.5;           ///< of a turned blank, > 0
-  double most_engagement_deg = 180.0;  ///< that roughing may have, in (0, 180]; 180: slots are allowed
-  double most_tilt_deg = 100.0;        ///< between the tool and the wheel's axis on passes of the tip, in (0, 180]
-  std::optional<std::string> hub;
-  std::vector<std::string> blades, splitters;  ///< one list a blade
-  std::optional<int> count;                    ///< of equal sectors in a whole turn
-};
-
 /// Plans, writes and judges it; the text of plan.json (docs/schema/wheel.md). Throws UsageError for what cannot be asked, and InputError
-/// for a part that is no wheel, saying what is missing.
+/// for a part that is no wheel, saying what is missing;
+/// Stopped where progress says so: the finished operations lie in the folder.
 [[nodiscard]] std::string mill_wheel(const WheelRequest& request, const Progress& progress = {});
 
 }  // namespace flank

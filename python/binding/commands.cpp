@@ -40,6 +40,9 @@ py::tuple milled_wheel(const WheelRequest& request, const py::object& callback) 
   try {
     const py::gil_scoped_release release;
     plan = mill_wheel(request, progress);
+  } catch (const Stopped&) {
+    // The operations that were finished lie in the folder.
+    if (stop.reason().is_none()) throw;
   } catch (const InputError&) {
     // A fit that was stopped has no path to go on with.
     if (stop.reason().is_none()) throw;

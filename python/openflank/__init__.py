@@ -5,7 +5,7 @@ holder. The functions fit, cover, trochoid, verify, post, report, inspect, examp
 same bytes.
 """
 
-from . import _show
+from . import _data, _show
 from ._core import (
     Envelope, Error, Face, FaceVerdict, Footpoints, InputError, InternalError, JobField, Part, Path, Program, Result,
     RuledMotion, Samples, Strip, SweptDistances, Target, Tool, UsageError, Verification, VerifyReport, WorstPlace, __version__,
@@ -30,4 +30,5 @@ for _name in __all__:
             pass
 del _name, _thing
 
+_data.add_to_classes()
 _show.add_to_classes()

@@ -52,7 +52,9 @@ def test_the_stub_of_a_class_is_the_class(name):
         assert value.__doc__, f"{name}.{member} has no docstring"
         is_property = any(getattr(d, "id", "") == "property" for d in stubbed[member].decorator_list)
         assert is_property == isinstance(value, property), member
-        if not is_property:
+        if inspect.isfunction(value):
+            assert arguments(stubbed[member]) == list(inspect.signature(value).parameters)[1:]
+        elif not is_property:
             assert arguments(stubbed[member]) == told_arguments(getattr(thing, member).__doc__), member
 
 

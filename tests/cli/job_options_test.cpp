@@ -60,6 +60,7 @@ TEST_F(JobOptions, ADesignIsTheSameAgain) { expect_the_same_again<internal::Desi
 TEST_F(JobOptions, ABoundIsTheSameAgain) { expect_the_same_again<internal::BoundJob>(); }
 TEST_F(JobOptions, ACorrectionIsTheSameAgain) { expect_the_same_again<internal::CorrectJob>(); }
 TEST_F(JobOptions, ARedesignIsTheSameAgain) { expect_the_same_again<internal::RedesignJob>(); }
+TEST_F(JobOptions, AWheelIsTheSameAgain) { expect_the_same_again<WheelRequest>(); }
 
 TEST_F(JobOptions, ADiameterIsTwiceARadius) {
   const auto job = parsed<FitJob>({"blade.step", "--shank-length", "30", "--shank-diameter", "8"});

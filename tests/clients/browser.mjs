@@ -86,7 +86,7 @@ export class Browser {
     await gone;
     clearTimeout(stuck);
     // Its helpers end a little later than the browser, and write until they do.
-    rmSync(this.folder, { recursive: true, force: true, maxRetries: 20, retryDelay: 100 });
+    rmSync(this.folder, { recursive: true, force: true, maxRetries: 150, retryDelay: 100 });
   }
 }
 

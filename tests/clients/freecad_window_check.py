@@ -61,19 +61,32 @@ def tidy():
     window.move(0, 0)
 
 
-def drive():
-    FreeCADGui.activateWorkbench("OpenFlankWorkbench")
-    settle()
-    tidy()
-    document = FreeCAD.newDocument("Blade")
-    part = document.addObject("Part::Feature", "Blade")
-    part.Shape = Part.read(os.environ["FLANK_PART"])
-    document.recompute()
-    view = FreeCADGui.activeDocument().activeView()
-    view.setAnimationEnabled(False)
-    view.setCameraType("Orthographic")
+def look(view, close=1.0):
+    """The whole part from a corner; `close` below 1 comes nearer: fitAll leaves room for any turn."""
     view.viewIsometric()
     view.fitAll()
+    view.getCameraNode().height.setValue(close * view.getCameraNode().height.getValue())
+    settle()
+
+
+def widget(kind, name):
+    """The widget of that class and name which is seen, or None."""
+    return next((one for one in QtWidgets.QApplication.allWidgets() if isinstance(one, kind) and one.objectName() == name and one.isVisible()), None)
+
+
+def buttons():
+    """The buttons of the open task panel, by their text."""
+    return {one.text(): one for one in window.findChildren(QtWidgets.QPushButton) if one.isVisible()}
+
+
+def state(operation):
+    return {"verdict": operation.Verdict, "exit": operation.ExitCode, "icon": re.findall("#[0-9a-f]{6}", operation.ViewObject.Proxy.getIcon())[0]}
+
+
+def run_on_face(document, part):
+    """What a user does: a face is chosen, the command is run."""
+    view = FreeCADGui.activeDocument().activeView()
+    look(view)
     found = {"active_without_choice": FreeCADGui.Command.get("OpenFlank_Operation").isActive()}
     FreeCADGui.Selection.addSelection(document.Name, part.Name, "Face1")
     found["chosen_picture"] = picture("workbench-chosen")
@@ -82,8 +95,7 @@ def drive():
     FreeCADGui.Selection.clearSelection()
     operation = document.getObject("FlankOperation")
     part.ViewObject.Visibility = False
-    view.fitAll()
-    view.getCameraNode().height.setValue(0.6 * view.getCameraNode().height.getValue())  # fitAll leaves room for any turn
+    look(view, 0.6)
     FreeCADGui.Selection.addSelection(document.Name, operation.Name)
     settle()
     for tree in window.findChildren(QtWidgets.QTreeWidget):
@@ -92,9 +104,133 @@ def drive():
         if table.metaObject().className().endswith("PropertyEditor"):
             table.scrollToBottom()
     found.update(verdict=operation.Verdict, exit=operation.ExitCode, children=[child.Name for child in operation.ViewObject.Proxy.claimChildren()],
-                 coloured=operation.ErrorMap.ViewObject.Coloring, reasons=list(operation.Reasons), icon=re.findall("#[0-9a-f]{6}", operation.ViewObject.Proxy.getIcon()),
-                 tree=icon_in_tree(operation.Label))
+                 coloured=operation.ErrorMap.ViewObject.Coloring, reasons=list(operation.Reasons), icon=state(operation)["icon"], tree=icon_in_tree(operation.Label))
     found["result_picture"] = picture("workbench-result")
+    return found
+
+
+def panel(operation):
+    """Its task panel: the verdict, the player, a program, a job for FreeCAD's own CAM workbench."""
+    import flank_panel
+
+    document = operation.Document
+    operation.ViewObject.Proxy.doubleClicked(operation.ViewObject)
+    settle(1.0)
+    slider = next(one for one in window.findChildren(QtWidgets.QSlider) if one.isVisible())
+    before = list(operation.ToolShape.Placement.Base)
+    slider.setValue(500)
+    found = {"moved": (operation.ToolShape.Placement.Base - FreeCAD.Vector(*before)).Length, "buttons": sorted(buttons()), "panel_picture": picture("workbench-panel")}
+    objects, steps, made = len(document.Objects), document.UndoCount, operation.Folder
+    buttons()["To CAM job"].click()
+    settle(1.0)
+    found["job_objects"] = len(document.Objects) - objects
+    found.update(posted(document))
+    found["job_picture"] = picture("workbench-job")
+    FreeCADGui.Control.closeDialog()
+    while document.UndoCount > steps:
+        document.undo()
+    found["undone_job"] = len(document.Objects) - objects
+    found["planned_again"] = operation.Folder != made
+    shown = flank_panel.open_panel(operation)
+    shown.write(os.path.join(folder, "written.ngc"))
+    found["written"] = shown.message.text().splitlines()[0]
+    FreeCADGui.Control.closeDialog()
+    return found
+
+
+def posted(document):
+    """The program that FreeCAD's own post-processor for LinuxCNC writes of the job."""
+    import PathScripts.PathJob as PathJob
+    import PathScripts.PathPost as PathPost
+
+    job = PathJob.Instances()[0]
+    command = PathPost.CommandPathPost()
+    programs = [command.exportObjectsWith(part, job, False)[1] for part in command.buildPostList(job)]
+    with open(os.path.join(folder, "freecad.ngc"), "w", encoding="utf-8") as stream:
+        stream.write("".join(programs))
+    return {"operations": [(one.Label, one.Path.Size) for one in job.Operations.Group], "programs": len(programs)}
+
+
+def stopped(operation):
+    """A request that takes minutes is stopped as soon as there is a best so far."""
+    seen = {"shares": []}
+
+    def watch():
+        dialog = widget(QtWidgets.QProgressDialog, "FlankProgress")
+        if dialog is None:
+            return
+        seen["shares"].append(dialog.value())
+        if "best" in dialog.labelText():
+            seen.setdefault("label", dialog.labelText())
+            if "picture" not in seen:
+                seen["picture"] = 0
+                dialog.grab().save(os.path.join(folder, "workbench-progress.png"))
+            dialog.findChild(QtWidgets.QPushButton).click()
+
+    timer = QtCore.QTimer()
+    timer.timeout.connect(watch)
+    timer.start(100)
+    operation.Tolerance, operation.Effort = 0.0001, "thorough"
+    begin = time.monotonic()
+    operation.Document.recompute()
+    timer.stop()
+    return {**state(operation), **seen, "seconds": time.monotonic() - begin, "picture": os.path.getsize(os.path.join(folder, "workbench-progress.png"))}
+
+
+def edited():
+    """A part made of features: one of them is changed, and the operation follows; then undo, save and load."""
+    import flank_operation
+
+    document = FreeCAD.newDocument("Ruled")
+    document.UndoMode = 1
+    low, high = document.addObject("Part::Line", "Low"), document.addObject("Part::Line", "High")
+    low.X1, low.X2, high.X1, high.X2, high.Y2, high.Z1, high.Z2 = 0, 40, 0, 40, 6, 15, 15
+    loft = document.addObject("Part::Loft", "Loft")
+    loft.Sections, loft.Solid, loft.Ruled = [low, high], False, True
+    document.recompute()
+    operation = flank_operation.make_operation(document, loft, ["Face1"])
+    operation.Label, operation.Tolerance, operation.Effort = "Ruled face", 0.05, "quick"
+    document.recompute()
+    found = {"first": {**state(operation), "length": operation.PathShape.Shape.Length}}
+    document.openTransaction("longer")
+    low.X2, high.X2 = 60, 60
+    document.recompute()
+    document.commitTransaction()
+    found["longer"] = {**state(operation), "length": operation.PathShape.Shape.Length}
+    document.undo()
+    document.recompute()
+    found["undone"] = {**state(operation), "length": operation.PathShape.Shape.Length, "x2": low.X2.Value}
+    file = os.path.join(folder, "ruled.FCStd")
+    document.saveAs(file)
+    FreeCAD.closeDocument(document.Name)
+    loaded = FreeCAD.openDocument(file)
+    again = loaded.getObject("FlankOperation")
+    settle(1.0)
+    found["loaded"] = {**state(again), "tree": icon_in_tree(again.Label), "facets": again.ErrorMap.Mesh.CountFacets, "children": len(again.ViewObject.Proxy.claimChildren())}
+    loaded.getObject("Low").X2 = 50
+    loaded.recompute()
+    found["recomputed"] = {**state(again), "length": again.PathShape.Shape.Length}
+    return found
+
+
+def drive():
+    FreeCADGui.activateWorkbench("OpenFlankWorkbench")
+    settle()
+    tidy()
+    document = FreeCAD.newDocument("Blade")
+    document.UndoMode = 1
+    part = document.addObject("Part::Feature", "Blade")
+    part.Shape = Part.read(os.environ["FLANK_PART"])
+    document.recompute()
+    view = FreeCADGui.activeDocument().activeView()
+    view.setAnimationEnabled(False)
+    view.setCameraType("Orthographic")
+    found = run_on_face(document, part)
+    operation = document.getObject("FlankOperation")
+    found["panel"] = panel(operation)
+    found["folder"] = operation.Folder
+    found["stopped"] = stopped(operation)
+    found["edited"] = edited()
     return found
 
 

@@ -6,7 +6,7 @@ import { copyFileSync, mkdirSync, readFileSync, symlinkSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { before, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
-import { BINARY, must, root } from './folder.mjs';
+import { BINARY, flank, must, root } from './folder.mjs';
 
 function skip(why) {
   console.log(`skipped: ${why}`);
@@ -36,7 +36,7 @@ before(() => {
   assert.equal(found.error, undefined, found.error);
   if (!pictures) return;
   mkdirSync(pictures, { recursive: true });
-  for (const name of ['workbench-chosen', 'workbench-result']) copyFileSync(join(root, `${name}.png`), join(pictures, `${name}.png`));
+  for (const name of ['chosen', 'result', 'panel', 'job', 'progress'].map((one) => `workbench-${one}`)) copyFileSync(join(root, `${name}.png`), join(pictures, `${name}.png`));
 });
 
 test('its command is there when a face is chosen', () => {
@@ -51,11 +51,56 @@ test('the chosen face is machined, and what belongs to it stands below it', () =
 });
 
 test('the verdict is seen in the tree: amber, for it has cautions', () => {
-  assert.equal(found.icon[0], '#c98500');
-  assert.equal(found.tree, found.icon[0]);
+  assert.equal(found.icon, '#c98500');
+  assert.equal(found.tree, found.icon);
 });
 
 test('the error is seen in colours, and the pictures show more than an empty window', () => {
   assert.equal(found.coloured, true);
-  assert.ok(found.chosen_picture > 40000 && found.result_picture > 40000, JSON.stringify(found));
+  for (const size of [found.chosen_picture, found.result_picture, found.panel.panel_picture, found.panel.job_picture]) assert.ok(size > 40000, JSON.stringify(found));
+});
+
+test('the panel moves the tool along its path, and writes the program', () => {
+  assert.ok(found.panel.moved > 1, `${found.panel.moved} mm`);
+  for (const name of ['Run again', 'Write program…', 'To CAM job', 'Report']) assert.ok(found.panel.buttons.includes(name), found.panel.buttons.join());
+  assert.match(found.panel.written, /written\.ngc: meets the request/);
+  assert.equal(flank('verify', found.folder, '--nc', join(root, 'written.ngc'), '--machine', 'linuxcnc-xyzac-trt', '--quiet').status, 0);
+});
+
+test('the CAM job is posted by FreeCAD itself, and its program does the same as ours', () => {
+  assert.ok(found.panel.job_objects > 0 && found.panel.operations.length === 1 && found.panel.operations[0][1] > 50, JSON.stringify(found.panel));
+  assert.equal(found.panel.programs, 1);
+  // FreeCAD's program does not say where the part sits on the table; ours does.
+  const [, setup] = /\(SETUP ([^)]*)\)/.exec(readFileSync(join(root, 'written.ngc'), 'utf8'));
+  assert.doesNotMatch(readFileSync(join(root, 'freecad.ngc'), 'utf8'), /G53 *\n/, 'the machine coordinates belong to a move');
+  const judged = flank('verify', found.folder, '--nc', join(root, 'freecad.ngc'), '--machine', 'linuxcnc-xyzac-trt', `--setup=${setup}`);
+  assert.equal(judged.status, 0, judged.stdout + judged.stderr);
+});
+
+test('undo takes the job away again', () => assert.equal(found.panel.undone_job, 0));
+
+test('neither the player nor the job plans the operation anew', () => assert.equal(found.panel.planned_again, false));
+
+test('Stop keeps the best, and says so', () => {
+  const { verdict, exit, label, shares, icon } = found.stopped;
+  assert.equal(exit, 1);
+  assert.equal(verdict, 'stopped, does NOT meet the request');
+  assert.match(label, /best/);
+  assert.equal(icon, '#b3241f');
+  shares.forEach((share, k) => assert.ok(k === 0 || share >= shares[k - 1], `the progress fell: ${shares}`));
+  console.log(`stopped ${found.stopped.seconds.toFixed(1)} s after its begin`);
+});
+
+test('an edit of the part is followed, undone, saved and loaded', () => {
+  const { first, longer, undone, loaded, recomputed } = found.edited;
+  assert.equal(first.exit, 0, first.verdict);
+  assert.equal(longer.exit, 0, longer.verdict);
+  assert.ok(longer.length > 1.3 * first.length, `${longer.length} is not longer than ${first.length}`);
+  assert.equal(undone.x2, 40);
+  assert.ok(Math.abs(undone.length - first.length) < 1e-6, `${undone.length} is not ${first.length}`);
+  assert.equal(loaded.verdict, undone.verdict);
+  assert.equal(loaded.tree, loaded.icon);
+  assert.ok(loaded.facets > 50 && loaded.children === 3);
+  assert.equal(recomputed.exit, 0);
+  assert.ok(recomputed.length > 1.1 * first.length && recomputed.length < longer.length);
 });

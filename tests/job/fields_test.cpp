@@ -128,11 +128,20 @@ Addresses members(const VerifyJob& job) {
   add(all, folder, more, part, tolerance, sample, reach, cell, side, on, material, flutes, helix, finish_stock);
   return all;
 }
+Addresses members(const WheelRequest& job) {
+  // The folder is given beside the fields, as of the other jobs.
+  const auto& [part, folder, unit, tolerance, coverage, effort, tool, sample, rough, edges, blank, allowance,
+               engagement, tilt, hub, blades, splitters, count] = job;
+  Addresses all;
+  add(all, part, unit, tolerance, coverage, effort, tool, sample, rough, edges, blank, allowance, engagement, tilt, hub,
+      blades, splitters, count);
+  return all;
+}
 
 template <class Job>
 class Fields : public testing::Test {};
-using Jobs =
-    testing::Types<FitJob, CoverJob, TrochoidJob, VerifyJob, PostJob, DesignJob, BoundJob, CorrectJob, RedesignJob>;
+using Jobs = testing::Types<FitJob, CoverJob, TrochoidJob, VerifyJob, PostJob, DesignJob, BoundJob, CorrectJob,
+                            RedesignJob, WheelRequest>;
 TYPED_TEST_SUITE(Fields, Jobs);
 
 TYPED_TEST(Fields, EveryMemberIsInTheTableOnce) {

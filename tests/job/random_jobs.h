@@ -12,6 +12,7 @@
 #include "flank/job/correct_fields.h"
 #include "flank/job/design_fields.h"
 #include "flank/job/redesign_fields.h"
+#include "flank/job/wheel_fields.h"
 
 namespace flank::internal::jobs {
 

@@ -105,7 +105,7 @@ export class Chooser {
     this.tangent = html('button', { type: 'button', title: 'Also choose all faces tangent to the chosen ones', ...(this.smooth ? {} : { hidden: '' }) }, 'Tangent');
     this.tangent.addEventListener('click', () => this.chooseSmooth());
     this.parts = html('button', { type: 'button', title: 'Name the faces of a wheel: hub, blades, sides, edges, tips; the filter then finds these names, too', ...(this.wheel ? {} : { hidden: '' }) }, 'Wheel');
-    this.parts.addEventListener('click', () => this.nameWheel());
+    this.parts.addEventListener('click', () => this.nameWheel().catch((error) => { this.probe.textContent = error.message; }));
     this.list = html('div', { class: 'faceslist' }, html('div', { class: 'tools' }, this.search, this.all, this.tangent, this.parts, this.hide, this.showAll), holder);
     this.table = new FaceTable(holder, this.rows, { hover: (id) => this.hover(id, true), click: (id, more) => this.click(id, more) }, (id) => this.marks.get(id));
   }
@@ -237,16 +237,19 @@ export class Chooser {
     this.choose([...ids]);
   }
 
-  /** Writes beside each face what it is of a wheel. */
+  /** Names and colours each face by what it is of a wheel; the wheel. Throws in the command's words if the part is none. */
   async nameWheel() {
     this.parts.disabled = true;
     try {
-      for (const [id, words] of wheelParts(await this.wheel())) if (this.rowOf.has(id)) this.rowOf.get(id).of = words;
-      this.table.arrange();
-    } catch (error) {
-      this.probe.textContent = error.message;
+      const told = await this.wheel();
+      for (const [id, of, role] of wheelParts(told)) Object.assign(this.rowOf.get(id) ?? {}, { of, role });
+      this.kinds.replaceChildren(...kindButtons(this.rows, (kind) => this.table.filter({ kind })));
+      this.table.filter({ kind: '' });
+      this.paint();
+      return told;
+    } finally {
+      this.parts.disabled = false;
     }
-    this.parts.disabled = false;
   }
 
   chosen(role = this.role) {
@@ -292,9 +295,6 @@ export class Chooser {
 
   /** The browser keeps few pictures at a time: one that is gone gives its own back. */
   dispose() {
-    clearTimeout(this.stage?.rest);
-    this.stage?.controls?.dispose();
-    this.stage?.renderer.dispose();
-    this.stage?.renderer.forceContextLoss();
+    this.stage?.dispose();
   }
 }

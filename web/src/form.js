@@ -3,7 +3,10 @@ import { send } from './api.js';
 import { html } from './dom.js';
 
 /** What a field is called on the page, by its key: the table's names are those of files and scripts. */
-const NAMES = { tool: 'Tool', side: 'Machined side', nc: 'Program', turn_max: 'Sharpest kink', dry: 'Dry run' };
+const NAMES = { tool: 'Tool', side: 'Machined side', nc: 'Program', turn_max: 'Sharpest kink', dry: 'Dry run', rough: 'Roughing', edges: 'Edges', sample: 'Fast check at', most_tilt: 'Largest tilt', most_engagement: 'Largest engagement' };
+/** What stands between the values of a list; the faces of a blade have commas between them. */
+const BETWEEN = { blades: ';', splitters: ';' };
+const between = ({ key }) => BETWEEN[key] ?? ',';
 /** Meshes have no unit of their own: it is asked for where one is dropped. */
 export const UNITS = ['mm', 'cm', 'm', 'in'];
 /** Whether a file is a mesh, which has no unit: every format that is none of CAD. */
@@ -11,7 +14,7 @@ export const isMesh = (name) => !/\.(step|stp|iges|igs|brep|brp)$/i.test(name);
 const nameOf = ({ key }) => NAMES[key] ?? key[0].toUpperCase() + key.slice(1).replaceAll('_', ' ');
 
 /** What stands for an empty field: what its help says of the default, in few words. */
-const hint = ({ help }) => /default: ([^,;:.]{1,40})/.exec(help)?.[1] ?? 'none';
+const hint = ({ help }) => /default: ([^,;:.]{1,40})/i.exec(help)?.[1] ?? 'none';
 
 function choice(options, value) {
   const select = html('select', {}, ...options.map(([key, text]) => html('option', { value: key }, text)));
@@ -90,13 +93,13 @@ export class Form {
     const values = {};
     for (const [name, { field, input }] of this.inputs) {
       const text = input.value.trim();
-      if (text) values[name] = field.kind === 'texts' ? text.split(',').map((one) => one.trim()).filter(Boolean) : text;
+      if (text) values[name] = field.kind === 'texts' ? text.split(between(field)).map((one) => one.trim()).filter(Boolean) : text;
     }
     return values;
   }
 
   set(values) {
-    for (const [name, { input }] of this.inputs) input.value = [values[name] ?? ''].flat().join(', ');
+    for (const [name, { field, input }] of this.inputs) input.value = [values[name] ?? ''].flat().join(`${between(field)} `);
     this.changed();
   }
 

@@ -21,6 +21,8 @@ export const tolerance = (mm) => (mm < 1 ? `${tick(1000 * mm)}\u00a0µm` : `${ti
 
 export const length = (mm, significant = 4) => `${digits(mm, significant)}\u00a0mm`;
 export const plain = (value, significant = 3) => digits(value, significant);
+/** A time as one says it. */
+export const seconds = (s) => (s < 90 ? `${s.toFixed(s < 10 ? 1 : 0)} s` : s < 5400 ? `${(s / 60).toFixed(1)} min` : `${(s / 3600).toFixed(1)} h`);
 export const percent = (share) => `${minus((100 * share).toFixed(2))}\u00a0%`;
 
 /** About `count` round numbers that span [low, high]. */

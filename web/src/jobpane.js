@@ -2,19 +2,27 @@
 import { get, post } from './api.js';
 import { copy } from './copy.js';
 import { byId, html } from './dom.js';
+import { faceList } from './facelist.js';
 import { Form, isMesh, quoted } from './form.js';
 import { Sides } from './sides.js';
 
 /** Milliseconds after the last change before the defaults are asked for. */
 const REST = 500;
 
-/** What can be wanted: the roles of faces and the fields that they fill. */
+/** What can be wanted: the roles of faces and the fields that they fill. `wheel`: the part must be one. */
 const COMMANDS = {
   fit: { name: 'Find a tool', help: 'The shape of the tool and its motion are found together, for this face.', roles: { machine: 'faces', protect: 'check_faces', ignore: 'ignore_faces' }, needed: ['machine'], skip: ['skin'] },
   cover: { name: 'Given tool', help: 'The passes with which a given tool finishes the face. The tool “catalogue” takes the best tool of the catalogue.', roles: { machine: 'faces', protect: 'check_faces', ignore: 'ignore_faces' }, needed: ['machine'], skip: ['skin'] },
   trochoid: { name: 'Cavity', help: 'One tool roughs and finishes the cavity between two sides.', roles: { left: 'left', right: 'right', floor: 'floor', protect: 'check_faces', ignore: 'ignore_faces' }, needed: ['left', 'right'], skip: ['faces', 'skin', 'side'] },
+  wheel: { name: 'Wheel', help: 'All operations of a compressor or turbine wheel, and one verdict: sides, floor, fillets, edges, rest and roughing. One sector is planned and copied.', roles: { hub: 'hub' }, needed: [], skip: [], wheel: true },
 };
-const SHORT = { faces: '--face', check_faces: '--check-faces', ignore_faces: '--ignore-faces', left: '--left', right: '--right', floor: '--floor' };
+/** "2 main blades, 4 splitters, hub F3, 2 sectors". */
+function wheelWords({ blades, hub, shroud, sectors, whole }) {
+  const splitters = blades.filter(({ kind }) => kind === 'splitter').length, count = (number, one) => `${number} ${one}${number === 1 ? '' : 's'}`;
+  return [count(blades.length - splitters, 'main blade'), ...(splitters ? [count(splitters, 'splitter')] : []), `hub ${faceList(hub)}`, ...(shroud.length ? [`shroud ${faceList(shroud)}`] : []), `${count(sectors, 'sector')}${whole ? '' : ', of which the part is a piece'}`].join(', ');
+}
+
+const SHORT = { faces: '--face', check_faces: '--check-faces', ignore_faces: '--ignore-faces', left: '--left', right: '--right', floor: '--floor', hub: '--hub' };
 
 export class JobPane {
   /** `run(id)` is called with a job that was begun. */
@@ -42,6 +50,7 @@ export class JobPane {
     this.form = this.forms.get(command);
     byId('form').replaceChildren(this.form.root);
     this.parts.roles(Object.keys(roles));
+    this.recognise();
     this.changed();
   }
 
@@ -53,7 +62,28 @@ export class JobPane {
       this.changed();
     });
     if (this.form) this.parts.roles(Object.keys(COMMANDS[this.command].roles));
+    this.recognise();
     this.changed();
+  }
+
+  /** What the faces of a wheel are, where one is wanted: their roles become their colours. */
+  async recognise() {
+    this.roles = null;
+    const { chooser } = this.parts;
+    if (!chooser || !COMMANDS[this.command]?.wheel) return;
+    const told = await chooser.nameWheel().catch((error) => ({ complaint: error.message }));
+    if (chooser !== this.parts.chooser) return;
+    this.roles = told;
+    this.changed();
+  }
+
+  /** What is chosen, in words. */
+  wanted(faces) {
+    if (Object.keys(faces).length) return Object.entries(faces).map(([field, names]) => `${SHORT[field]} ${names}`).join('  ');
+    if (!this.parts.chooser) return 'Drop a part first.';
+    if (!COMMANDS[this.command].wheel) return 'No face is chosen yet: click one in the part.';
+    if (this.roles?.complaint) return this.roles.complaint;
+    return this.roles ? wheelWords(this.roles) : 'Looking for hub and blades…';
   }
 
   /** Names of the faces by the field that they fill. */
@@ -84,15 +114,25 @@ export class JobPane {
     if (!this.form) return;
     const faces = this.faces(), ready = this.ready();
     byId('run').disabled = !ready;
-    byId('chosen').textContent = Object.keys(faces).length ? Object.entries(faces).map(([field, names]) => `${SHORT[field]} ${names}`).join('  ') : 'No face is chosen yet: click one in the part.';
+    byId('chosen').textContent = this.wanted(faces);
     byId('chosen').classList.toggle('ready', ready);
     byId('run-note').textContent = this.form.missing();
     const words = [...Object.values(this.unit()).map((unit) => `--unit ${unit}`), ...Object.entries(faces).map(([field, names]) => `${SHORT[field]} ${names}`)];
     byId('line').textContent = ['flank', this.command, quoted(this.parts.name || 'PART'), ...words, ...this.form.words(), '-o out'].join(' ');
-    const keywords = Object.entries(this.values()).map(([name, value]) => `${name}=${Array.isArray(value) || !/^-?[\d.]+(e-?\d+)?$/.test(value) ? JSON.stringify(value) : value}`);
-    byId('python').textContent = `import openflank\nresult = openflank.${this.command}(${[JSON.stringify(this.parts.name || 'PART'), ...keywords].join(', ')})\nresult.write("out")`;
+    byId('python').textContent = this.python();
     clearTimeout(this.timer);
     this.timer = setTimeout(() => this.ask(), REST);
+  }
+
+  /** The same for Python. */
+  python() {
+    const written = (name, value) => {
+      if (this.command === 'wheel' && this.form.inputs.get(name)?.field.kind === 'switch') return value === 'on' ? 'True' : 'False';
+      return Array.isArray(value) || !/^-?[\d.]+(e-?\d+)?$/.test(value) ? JSON.stringify(value) : value;
+    };
+    const keywords = Object.entries(this.values()).map(([name, value]) => `${name}=${written(name, value)}`), part = JSON.stringify(this.parts.name || 'PART');
+    if (this.command === 'wheel') return `import openflank\nplan = openflank.wheel(${[part, '"out"', ...keywords].join(', ')})`;
+    return `import openflank\nresult = openflank.${this.command}(${[part, ...keywords].join(', ')})\nresult.write("out")`;
   }
 
   /** What would be taken for what is not filled in. */

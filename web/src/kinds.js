@@ -24,6 +24,7 @@ export const ROLES = {
   left: { name: 'Left side', colour: '#d55e00' },
   right: { name: 'Right side', colour: '#a23b8f' },
   floor: { name: 'Floor', colour: '#009e73' },
+  hub: { name: 'Hub', colour: '#009e73' },
   protect: { name: 'Protect', colour: '#0050a0' },
   ignore: { name: 'Ignore', colour: '#5b5b5b' },
 };

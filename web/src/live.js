@@ -1,12 +1,13 @@
 // One job as it runs: its stage, its share, the best so far, and what can be done with it.
 import { get, place, post } from './api.js';
 import { html, svg } from './dom.js';
+import { seconds } from './format.js';
+import { planTable } from './plantable.js';
 
 /** Milliseconds between two looks at a job that runs. */
 const LOOK = 300;
 
 const SIZE = { width: 300, height: 64 };
-export const seconds = (s) => (s < 90 ? `${s.toFixed(s < 10 ? 1 : 0)} s` : s < 5400 ? `${(s / 60).toFixed(1)} min` : `${(s / 3600).toFixed(1)} h`);
 
 /** [state, words] of a job, from the exit code of its command. */
 export function verdictOf(job) {
@@ -28,9 +29,9 @@ function curve(points) {
 }
 
 export class Live {
-  /** `told(job)` is called after every look. */
-  constructor(id, told) {
-    Object.assign(this, { id, told, from: 0, points: [], message: '', over: false });
+  /** `told(job)` is called after every look, `open(operation)` to show that of a wheel, or the whole if it is empty. */
+  constructor(id, told, open) {
+    Object.assign(this, { id, told, open, shown: '', from: 0, points: [], message: '', over: false });
     this.root = html('section', { class: 'live', 'aria-label': `Job ${id}` });
     this.status = html('p', { class: 'sr', role: 'status' });
     this.make();
@@ -77,9 +78,10 @@ export class Live {
     this.bar = html('div', { class: 'bar-outer', role: 'progressbar', 'aria-label': `Progress of job ${Number(this.id)}`, 'aria-valuemin': '0', 'aria-valuemax': '100' }, this.inner);
     this.best = html('div');
     this.words = html('div');
+    this.plan = html('div');
     this.stop = this.button('Stop', 'stop');
     this.resume = this.button('Resume', 'resume');
-    this.root.append(html('div', { class: 'livehead' }, this.pill, html('strong', {}, `Job ${Number(this.id)}`), this.facts, this.stop, this.resume), this.bar, this.best, this.words);
+    this.root.append(html('div', { class: 'livehead' }, this.pill, html('strong', {}, `Job ${Number(this.id)}`), this.facts, this.stop, this.resume), this.bar, this.best, this.words, this.plan);
   }
 
   button(text, act) {
@@ -113,8 +115,28 @@ export class Live {
     this.inner.style.width = `${(100 * share).toFixed(1)}%`;
     this.best.replaceChildren(...(running && this.points.some((p) => p.best) ? [curve(this.points)] : []));
     this.offer();
+    this.list();
     this.tell();
     this.status.textContent = running ? '' : `Job ${Number(job.id)}: ${words}`;
+  }
+
+  /** The operations of a wheel; a table that is the same stays as it is, or its buttons would be lost under a click. */
+  list() {
+    const key = JSON.stringify([this.job.plan, this.shown]);
+    if (!this.job.plan || key === this.listed) return;
+    this.listed = key;
+    this.plan.replaceChildren(planTable(this.job.plan, this.shown, (operation) => {
+      this.shown = operation;
+      this.list();
+      this.open(operation);
+    }));
+  }
+
+  /** Says in the table that the whole is shown: no operation. */
+  showWhole() {
+    this.shown = '';
+    this.list();
+    return this.shown;
   }
 
   /** Which of the buttons are there. */
@@ -128,7 +150,7 @@ export class Live {
 
   tell() {
     const { job } = this, bad = job.crash || (job.exit > 1 ? this.message.replace(/^flank: /, '') : '');
-    const stopped = job.state !== 'done' || !job.resumable ? '' : job.summary ? 'Stopped. Shown is the best result so far; Resume continues from there.' : 'Stopped before a result was found; Resume continues.';
+    const stopped = job.state !== 'done' || !job.resumable ? '' : job.plan ? 'Stopped. The operations that are done are kept; Resume continues with the others.' : job.summary ? 'Stopped. Shown is the best result so far; Resume continues from there.' : 'Stopped before a result was found; Resume continues.';
     if (this.said === bad + stopped) return;
     this.said = bad + stopped;
     this.words.replaceChildren(...(bad ? [html('p', { class: 'notice', role: 'alert' }, bad)] : []), ...(stopped ? [html('p', { class: 'soft' }, stopped)] : []));
@@ -140,5 +162,5 @@ export class Live {
   }
 }
 
-/** Where the report of a job is. */
-export const reportOf = (id, theme) => `${place(`jobs/${id}/report`)}#theme=${theme}`;
+/** Where the report of a job is, or of an operation of a wheel. */
+export const reportOf = (id, operation, theme) => `${place(operation ? `jobs/${id}/ops/${operation}/report` : `jobs/${id}/report`)}#theme=${theme}`;

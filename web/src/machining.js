@@ -4,7 +4,7 @@ import { html } from './dom.js';
 import { Form } from './form.js';
 
 /** Files that people ask for, and what they are. */
-const FILES = { 'tool.dxf': 'Tool drawing', 'tool.step': 'Tool, solid', 'path.cls': 'Path, CL file', 'strips.step': 'Cut surfaces', 'verify.json': 'Verdict', 'tool.json': 'Tool, as data', 'path.json': 'Path, as data' };
+const FILES = { 'tool.dxf': 'Tool drawing', 'tool.step': 'Tool, solid', 'path.cls': 'Path, CL file', 'strips.step': 'Cut surfaces', 'verify.json': 'Verdict', 'tool.json': 'Tool, as data', 'path.json': 'Path, as data', 'plan.json': 'Plan of the wheel', 'blank.stl': 'Blank', 'rest.stl': 'What is left' };
 
 const link = (path, text, title) => html('a', { href: place(path), download: '', class: 'download', title: title ?? '' }, text);
 
@@ -60,7 +60,16 @@ export class Machining {
     const told = await post(`jobs/${this.id}/post`, { fields: { ...this.fields.values(), machine } });
     const judge = html('button', { type: 'button', id: 'judge' }, 'Check the program');
     judge.addEventListener('click', () => this.act(judge, async () => this.say(await post(`jobs/${this.id}/judge`, { program: told.program, machine }), 'Program')));
-    this.say(told, 'Post', html('p', {}, html('code', {}, told.line)), ...(told.program ? [html('p', { class: 'row' }, link(`jobs/${this.id}/programs/${told.program}`, `Download ${told.program}`), judge)] : []));
+    const sheet = html('button', { type: 'button', id: 'sheet' }, 'Set-up sheet');
+    sheet.addEventListener('click', () => this.act(sheet, () => this.sheet(told.program, machine)));
+    this.say(told, 'Post', html('p', {}, html('code', {}, told.line)), ...(told.program ? [html('p', { class: 'row' }, link(`jobs/${this.id}/programs/${told.program}`, `Download ${told.program}`), judge, sheet)] : []));
+    this.changed();
+  }
+
+  /** The sheet for the operator, a page for paper. */
+  async sheet(program, machine) {
+    const told = await post(`jobs/${this.id}/sheet`, { program, machine });
+    this.say(told, 'Set-up sheet', ...(told.sheet ? [html('p', { class: 'row' }, link(`jobs/${this.id}/programs/${told.sheet}`, `Download ${told.sheet}`))] : []));
     this.changed();
   }
 }

@@ -1,17 +1,18 @@
 // The right pane: the jobs of the folder, the chosen one as it runs, then its report, and its way to the machine.
 import { byId, html } from './dom.js';
-import { Live, reportOf, seconds, verdictOf } from './live.js';
+import { seconds } from './format.js';
+import { Live, reportOf, verdictOf } from './live.js';
 import { Machining } from './machining.js';
 import { isDark } from './theme.js';
 
 const facesOf = ({ fields }) => fields.faces ?? [fields.left, fields.right].filter(Boolean).join(' | ');
-const titleOf = (job) => `${facesOf(job)} of ${job.part}`;
+const titleOf = (job) => (job.command === 'wheel' ? `wheel ${job.part}` : `${facesOf(job)} of ${job.part}`);
 /** Whether there is something to report. */
 const hasReport = (job) => job.state === 'done' && job.files.includes('view.json');
 
 export class ResultPane {
   constructor() {
-    Object.assign(this, { chosen: null, live: null, jobs: [], shown: new Map() });
+    Object.assign(this, { chosen: null, operation: '', live: null, jobs: [], shown: new Map() });
     byId('wide').addEventListener('click', () => {
       const on = document.body.classList.toggle('wide');
       byId('wide').setAttribute('aria-pressed', String(on));
@@ -48,7 +49,8 @@ export class ResultPane {
     this.made = null;
     byId('machining').replaceChildren();
     this.machining = null;
-    this.live = new Live(id, (job) => this.looked(job));
+    this.operation = '';
+    this.live = new Live(id, (job) => this.looked(job), (operation) => this.show(operation));
     byId('live').replaceChildren(this.live.root, this.live.status);
     byId('reports').replaceChildren();
     this.list(this.jobs);
@@ -59,6 +61,8 @@ export class ResultPane {
     if (key === this.made) return;
     this.made = key;
     this.job = job;
+    // Once the whole of a wheel is there, it is what is wanted.
+    if (hasReport(job)) this.operation = this.live.showWhole();
     this.reports();
     byId('wide').hidden = !hasReport(job);
     if (hasReport(job) && !this.machining) {
@@ -78,10 +82,16 @@ export class ResultPane {
     this.live.again(0);
   }
 
+  /** Shows the report of an operation of a wheel, or of the whole if it is empty. */
+  show(operation) {
+    this.operation = operation;
+    this.reports();
+  }
+
   reports() {
     const other = byId('compare').value;
-    const frame = (id) => html('iframe', { class: 'report', title: `Report of job ${Number(id)}`, src: reportOf(id, isDark() ? 'dark' : 'light') });
-    const ids = this.job && hasReport(this.job) ? [this.job.id, ...(other && other !== this.job.id ? [other] : [])] : [];
+    const frame = (id) => html('iframe', { class: 'report', title: `Report of job ${Number(id)}`, src: reportOf(id, id === this.job.id ? this.operation : '', isDark() ? 'dark' : 'light') });
+    const ids = this.job && (this.operation || hasReport(this.job)) ? [this.job.id, ...(other && other !== this.job.id ? [other] : [])] : [];
     byId('reports').replaceChildren(...ids.map(frame));
     byId('reports').classList.toggle('two', ids.length === 2);
   }

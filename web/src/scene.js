@@ -13,12 +13,18 @@ const NARROW = 620;
 /** Without a graphics card: milliseconds of rest after which a picture is drawn again with smooth edges, twice as wide and high. */
 const REST = 250, SHARP = 2;
 
-/** Whether the processor draws: smooth edges cost it as much as all else. */
+/** Whether the processor draws, once that was asked. */
+let software = null;
+
+/** The same; smooth edges cost it as much as all else. Throws if nothing draws. */
 function isSoftware() {
-  const gl = document.createElement('canvas').getContext('webgl2'), names = gl.getExtension('WEBGL_debug_renderer_info');
-  const name = names ? gl.getParameter(names.UNMASKED_RENDERER_WEBGL) : '';
+  if (software !== null) return software;
+  const gl = document.createElement('canvas').getContext('webgl2');
+  if (!gl) throw new Error('this browser offers no WebGL 2');
+  const names = gl.getExtension('WEBGL_debug_renderer_info'), name = names ? gl.getParameter(names.UNMASKED_RENDERER_WEBGL) : '';
   gl.getExtension('WEBGL_lose_context')?.loseContext();
-  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+  software = /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+  return software;
 }
 
 export class Stage {
@@ -29,13 +35,15 @@ export class Stage {
     this.margins = room;
     this.listeners = [];
     this.quiet = true;
+    const slow = isSoftware();
+    this.soft = quick && slow;
+    // The first picture is as rough as one that moves: it is wanted soon.
+    this.moved = this.soft;
     // What was drawn last stays readable: for printing and for screenshots.
-    if (!document.createElement('canvas').getContext('webgl2')) throw new Error('this browser offers no WebGL 2');
-    this.soft = quick && isSoftware();
     this.renderer = new WebGLRenderer({ canvas, antialias: !this.soft, alpha: true, preserveDrawingBuffer: true });
     // Asking the driver for complaints makes it finish every program before the next is begun.
     this.renderer.debug.checkShaderErrors = false;
-    this.renderer.setPixelRatio(this.soft ? SHARP : Math.min(2, window.devicePixelRatio));
+    this.renderer.setPixelRatio(this.soft ? 1 : Math.min(2, window.devicePixelRatio));
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.1, 10000);
     this.scene.add(this.camera, new AmbientLight(0xffffff, 2.45));
@@ -44,6 +52,14 @@ export class Stage {
     this.camera.add(this.key, this.key.target);
     this.hold(new Vector3());
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
+  }
+
+  /** Gives the graphics back: a browser has room for some pictures only. */
+  dispose() {
+    clearTimeout(this.rest);
+    this.controls.dispose();
+    this.renderer.dispose();
+    this.renderer.forceContextLoss();
   }
 
   /** Controls learn the upward direction only when they are made. */

@@ -6,9 +6,12 @@ import { JobPane } from './jobpane.js';
 import { PartPane } from './partpane.js';
 import { ResultPane } from './resultpane.js';
 import { watchTheme } from './theme.js';
+import { warm } from './warm.js';
 
 /** Milliseconds between two looks at the folder: another page may work in it, too. */
 const LOOK = 1000;
+/** Milliseconds of rest before the graphics are made ready. */
+const WARM = 200;
 
 const start = packed('start.json');
 const result = new ResultPane();
@@ -53,6 +56,11 @@ async function begin() {
   if (first) await parts.show(first);
   setTimeout(again, LOOK);
   document.documentElement.dataset.ready = Math.round(performance.now());
+  // Whoever has no part yet will drop one soon.
+  if (!first) setTimeout(() => {
+    warm();
+    document.documentElement.dataset.warm = 'yes';
+  }, WARM);
 }
 
 window.flankStudio = { parts, job, result };

@@ -7,6 +7,7 @@
 #include "flank/job/field_text.h"
 #include "flank/job/fields.h"
 #include "flank/job/redesign_fields.h"
+#include "flank/job/wheel_fields.h"
 
 namespace flank::internal {
 namespace {
@@ -45,5 +46,6 @@ void check_fields(const DesignJob& job) { check(job); }
 void check_fields(const BoundJob& job) { check(job); }
 void check_fields(const CorrectJob& job) { check(job); }
 void check_fields(const RedesignJob& job) { check(job); }
+void check_fields(const WheelRequest& job) { check(job); }
 
 }  // namespace flank::internal

@@ -10,6 +10,7 @@
 #include "flank/job/field_text.h"
 #include "flank/job/fields.h"
 #include "flank/job/redesign_fields.h"
+#include "flank/job/wheel_fields.h"
 
 namespace flank::internal {
 namespace {
@@ -120,6 +121,7 @@ std::string command_line(const DesignJob& job) { return command(job); }
 std::string command_line(const BoundJob& job) { return command(job); }
 std::string command_line(const CorrectJob& job) { return command(job); }
 std::string command_line(const RedesignJob& job) { return command(job); }
+std::string command_line(const WheelRequest& job) { return command(job); }
 std::string command_line(const PlanJob& job) {
   return std::visit([](const auto& plan) { return command(plan); }, job);
 }

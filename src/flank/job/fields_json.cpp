@@ -8,6 +8,7 @@
 #include "flank/job/design_fields.h"
 #include "flank/job/field_text.h"
 #include "flank/job/fields.h"
+#include "flank/job/wheel_fields.h"
 
 namespace flank::internal {
 namespace {
@@ -58,6 +59,7 @@ std::map<std::string, Written> written_of(const std::string& command) {
   if (command == "verify") return written<VerifyJob>();
   if (command == "post") return written<PostJob>();
   if (command == "design") return written<DesignJob>();
+  if (command == "wheel") return written<WheelRequest>();
   return written<FitJob>();
 }
 
@@ -86,6 +88,7 @@ const std::vector<std::string>& basic_fields(const std::string& command) {
       {"trochoid", {"tolerance", "tool", "axis_length", "max_engagement", "cut", "entry", "shank_length", "holder"}},
       {"verify", {"tolerance", "nc", "machine", "setup"}},
       {"design", {"tolerance", "tools", "source", "shape", "axis_length", "tool_change"}},
+      {"wheel", {"tolerance", "coverage", "effort", "tool", "rough", "edges", "blank", "sample"}},
       {"post", {"machine", "spindle", "feed", "speed", "order", "setup", "tool_length", "dry"}}};
   static const std::vector<std::string> kNone;
   const auto found = kBasic.find(command);

@@ -8,6 +8,7 @@
 #include "flank/job/design_fields.h"
 #include "flank/job/field_text.h"
 #include "flank/job/fields.h"
+#include "flank/job/wheel_fields.h"
 
 namespace flank {
 using namespace internal;
@@ -109,7 +110,8 @@ std::vector<JobField> job_fields(const std::string& command) {
   if (command == command_name(VerifyJob{})) return fields_of<VerifyJob>();
   if (command == command_name(PostJob{})) return fields_of<PostJob>();
   if (command == command_name(DesignJob{})) return fields_of<DesignJob>();
-  throw UsageError("command", command, "must be fit, cover, trochoid, verify, post or design");
+  if (command == command_name(WheelRequest{})) return fields_of<WheelRequest>();
+  throw UsageError("command", command, "must be fit, cover, trochoid, verify, post, design or wheel");
 }
 
 void set_field(FitJob& job, const std::string& name, const std::vector<std::string>& words) { set(job, name, words); }

@@ -83,6 +83,19 @@ std::vector<std::string> names_in(const std::string& folder) {
   return names;
 }
 
+using NamedFiles = std::vector<std::pair<std::string, std::string>>;
+
+/// The files of a folder and of those in it, as a wheel has, with their ways in it; links are not followed.
+void add_files(const std::string& folder, const std::string& way, NamedFiles& files) {
+  for (const std::string& name : names_in(folder)) files.emplace_back(way + name, read_in(folder, name));
+  std::vector<std::string> inner;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder, none))
+    if (fs::is_directory(entry.symlink_status())) inner.push_back(entry.path().filename());
+  std::sort(inner.begin(), inner.end());
+  for (const std::string& name : inner) add_files(folder + "/" + name, way + name + "/", files);
+}
+
 }  // namespace
 
 Desk::Desk(const std::string& folder, std::string program)
@@ -154,8 +167,13 @@ Answer Desk::defaults(const Json& asked) const {
   return told(said, std::move(json));
 }
 
-Answer Desk::report(const std::string& job) {
-  const std::string result = jobs_.result(job);
+Answer Desk::report(const std::string& job, const std::string& operation) {
+  std::string result = jobs_.result(job);
+  if (!operation.empty()) {
+    result += "/ops/" + operation;
+    if (!is_plain_name(operation) || !fs::is_directory(fs::symlink_status(result)))
+      throw InputError("no such operation: " + operation);
+  }
   const Said said = ask({"report", result, "--quiet"});
   if (said.exit_code != 0) throw InputError(complaint(said));
   return {read_in(result, "report.html"), "text/html; charset=utf-8", ""};
@@ -184,6 +202,17 @@ Answer Desk::judge(const std::string& job, const Json& asked) {
   return told(ask(words), Json::object());
 }
 
+Answer Desk::sheet(const std::string& job, const Json& asked) {
+  const std::string program = text_at(asked, "program"), folder = jobs_.programs(job);
+  (void)read_in(folder, program);
+  const std::string name = fs::path(program).stem().string() + ".html";
+  std::vector<std::string> words{"setup", jobs_.result(job), "--nc", folder + "/" + program, "-o", folder + "/" + name};
+  for (std::string& word : option_words("verify", {{"machine", text_at(asked, "machine")}}, folder_.files(), {}))
+    words.push_back(std::move(word));
+  const Said said = ask(words);
+  return told(said, {{"sheet", fs::is_regular_file(folder + "/" + name) ? Json(name) : Json()}});
+}
+
 Answer Desk::file(const std::string& job, const std::string& name) {
   return {read_in(jobs_.result(job), name), "application/octet-stream", name};
 }
@@ -193,9 +222,8 @@ Answer Desk::program(const std::string& job, const std::string& name) {
 }
 
 Answer Desk::zip(const std::string& job) {
-  std::vector<std::pair<std::string, std::string>> files;
-  for (const std::string& folder : {jobs_.result(job), jobs_.programs(job)})
-    for (const std::string& name : names_in(folder)) files.emplace_back(name, read_in(folder, name));
+  NamedFiles files;
+  for (const std::string& folder : {jobs_.result(job), jobs_.programs(job)}) add_files(folder, "", files);
   return {zip_of(files), "application/zip", plain_name("openflank-" + job + ".zip")};
 }
 

@@ -45,11 +45,13 @@ class Desk {
   [[nodiscard]] Answer machines() const;
   /// What a fit would take: {"exit", "said", "defaults"}.
   [[nodiscard]] Answer defaults(const nlohmann::json& asked) const;
-  /// report.html of a job, made anew.
-  [[nodiscard]] Answer report(const std::string& job);
+  /// report.html of a job, made anew; of an operation of a wheel, "20-side", or of the whole if empty.
+  [[nodiscard]] Answer report(const std::string& job, const std::string& operation);
   /// The program of a job for a machine: {"exit", "said", "program"}; then judged: {"exit", "said"}.
   [[nodiscard]] Answer post(const std::string& job, const nlohmann::json& asked);
   [[nodiscard]] Answer judge(const std::string& job, const nlohmann::json& asked);
+  /// The set-up sheet of a program: {"exit", "said", "sheet"}; it lies beside the program.
+  [[nodiscard]] Answer sheet(const std::string& job, const nlohmann::json& asked);
   /// A file of a result or a program, and all of them.
   [[nodiscard]] Answer file(const std::string& job, const std::string& name);
   [[nodiscard]] Answer program(const std::string& job, const std::string& name);

@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 constexpr std::chrono::milliseconds kLook{50};
 constexpr const char* kJobFile = "studio.json";
 constexpr const char* kProgress = "progress.txt";
+constexpr const char* kWheel = "wheel";
 constexpr std::size_t kMostProgress = 1 << 20;  // bytes at a time
 constexpr double kPatience = 20.0;              // seconds, for children that were told to stop
 
@@ -40,8 +41,27 @@ const std::vector<std::string>& kept_fields() {
 }
 
 void require_command(const std::string& command) {
-  if (command != "fit" && command != "cover" && command != "trochoid")
-    throw UsageError("command", command, "expected fit, cover or trochoid");
+  if (command != "fit" && command != "cover" && command != kWheel && command != "trochoid")
+    throw UsageError("command", command, "expected fit, cover, trochoid or wheel");
+}
+
+/// What plan.json says of the operations of a wheel: "operations", "copies", "sectors", and, once the whole was judged, "pass". Nothing
+/// before the first operation.
+Json plan_of(const std::string& result) {
+  const Json plan = read_json(result + "plan.json");
+  Json told;
+  for (const char* key : {"operations", "copies", "sectors", "surface", "pass"})
+    if (plan.is_object() && plan.contains(key)) told[key] = plan.at(key);
+  return told;
+}
+
+/// Whether the command would go on where this one ended. A wheel does so by itself, until its whole has a verdict.
+bool is_resumable(const StudioJob& job, const std::string& result) {
+  if (job.state != JobState::kDone) return false;
+  if (job.command != kWheel) return fs::exists(result + "resume.json");
+  const bool ended_early = job.stopping || (job.exit_code && !crash_text(*job.exit_code).empty());
+  const Json plan = ended_early ? plan_of(result) : Json();
+  return plan.is_object() && !plan.contains("pass");
 }
 
 }  // namespace
@@ -58,7 +78,10 @@ Jobs::~Jobs() {
   const double begin = now();
   const std::lock_guard lock(mutex_);
   for (StudioJob& job : jobs_)
-    if (job.state == JobState::kRunning) signal_child(job.child, SIGINT);
+    if (job.state == JobState::kRunning) {
+      job.stopping = true;
+      signal_child(job.child, SIGINT);
+    }
   for (StudioJob& job : jobs_)
     while (job.state == JobState::kRunning && now() < begin + kPatience) {
       if (const auto code = exit_of(job.child)) finish(job, *code);
@@ -123,7 +146,7 @@ Json Jobs::told(const StudioJob& job) const {
   json.erase("words");
   json["seconds"] = job.seconds + (job.state == JobState::kRunning ? now() - job.begun : 0.0);
   const std::string result = folder_of(job.id) + "/result/";
-  json["resumable"] = job.state == JobState::kDone && fs::exists(result + "resume.json");
+  json["resumable"] = is_resumable(job, result);
   json["crash"] = job.exit_code ? crash_text(*job.exit_code) : "";
   json["files"] = Json::array();
   json["programs"] = Json::array();
@@ -155,6 +178,7 @@ Json Jobs::one(const std::string& id, std::size_t from) {
   json["progress"] = std::move(read.lines);
   json["next"] = read.next;
   json["message"] = read.message;
+  if (json["command"] == kWheel) json["plan"] = plan_of(folder_of(id) + "/result/");
   return json;
 }
 
@@ -194,7 +218,7 @@ std::string Jobs::programs(const std::string& id) {
 
 void Jobs::begin(StudioJob& job) {
   std::vector<std::string> words = job.words;
-  if (job.resume) words.emplace_back("--resume");
+  if (job.resume && job.command != kWheel) words.emplace_back("--resume");
   const std::string folder = folder_of(job.id);
   fs::create_directories(folder);
   job.begun = now();

@@ -193,7 +193,8 @@ class Server {
       const Json job = desk_.jobs().one(name(0), from);
       return say(response, {job.dump(-1, ' ', false, Json::error_handler_t::replace), "application/json", ""});
     }
-    if (way.pattern == "jobs/*/report") return say(response, desk_.report(name(0)));
+    if (way.pattern == "jobs/*/report") return say(response, desk_.report(name(0), ""));
+    if (way.pattern == "jobs/*/ops/*/report") return say(response, desk_.report(name(0), name(1)));
     if (way.pattern == "jobs/*/zip") return say(response, desk_.zip(name(0)));
     if (way.pattern == "jobs/*/files/*") return say(response, desk_.file(name(0), name(1)));
     if (way.pattern == "jobs/*/programs/*") return say(response, desk_.program(name(0), name(1)));
@@ -220,6 +221,7 @@ class Server {
     if (way.pattern == "jobs/*/resume") return desk_.jobs().resume(way.names.at(0)), done();
     if (way.pattern == "jobs/*/post") return say(response, desk_.post(way.names.at(0), asked));
     if (way.pattern == "jobs/*/judge") return say(response, desk_.judge(way.names.at(0), asked));
+    if (way.pattern == "jobs/*/sheet") return say(response, desk_.sheet(way.names.at(0), asked));
     refuse(response, kUnknown, "no such page");
   }
 

@@ -14,6 +14,7 @@
 #include "flank/feature/wheel_table.h"
 #include "flank/io/mesh/write_mesh.h"
 #include "flank/job/input_files.h"
+#include "flank/job/wheel_fields.h"
 #include "flank/pipeline/folder/judge_roughing.h"
 #include "flank/results/write_result.h"
 #include "flank/setup/read_setup.h"
@@ -31,17 +32,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void check(const WheelJob& job) {
-  if (!(job.tolerance_mm > 0.0)) throw UsageError("tolerance_mm", "expected a length > 0 mm");
-  if (!(job.least_coverage > 0.0 && job.least_coverage <= 1.0))
-    throw UsageError("least_coverage", "expected a share above 0 and at most 1");
-  if (job.effort != "quick" && job.effort != "normal" && job.effort != "thorough")
-    throw UsageError("effort", job.effort, "must be quick, normal or thorough");
-  if (!(job.allowance_mm > 0.0)) throw UsageError("allowance_mm", "expected a length > 0 mm");
-  if (!(job.most_engagement_deg > 0.0 && job.most_engagement_deg <= 180.0))
-    throw UsageError("most_engagement_deg", "expected an angle above 0 and at most 180 degrees");
-  if (!(job.most_tilt_deg > 0.0 && job.most_tilt_deg <= 180.0))
-    throw UsageError("most_tilt_deg", "expected an angle above 0 and at most 180 degrees");
+void check(const WheelRequest& job) {
+  check_fields(job);
   if (job.blank && !job.rough) throw UsageError("blank", "is for roughing, which is left out");
 }
 
@@ -83,7 +75,7 @@ void judge(WheelWork& work, WheelResult& result) {
 }
 
 /// blank.stl in the folder; none where nothing is roughed.
-WheelBlank make_blank(const WheelJob& job, const Part& part, WheelResult& result) {
+WheelBlank make_blank(const WheelRequest& job, const Part& part, WheelResult& result) {
   if (!job.rough) return {};
   WheelBlank blank = job.blank ? read_blank(*job.blank, job.unit, result.roles.axis)
                                : turned_blank(part, result.roles, job.allowance_mm);
@@ -99,12 +91,12 @@ WheelBlank make_blank(const WheelJob& job, const Part& part, WheelResult& result
 
 }  // namespace
 
-WheelResult run_wheel(const WheelJob& job, const Progress& progress) {
+WheelResult run_wheel(const WheelRequest& job, const Progress& progress) {
   check(job);
   progress.step("read", 0.0);
   const Part part = read_part(job.part, job.unit);
   WheelResult result;
-  result.roles = recognise_wheel(part, job.choice);
+  result.roles = recognise_wheel(part, {job.hub, job.blades, job.splitters, job.count});
   const WheelSector sector = make_sector(result.roles);
   result.copies = sector.copies, result.lacking = missing_blades(result.roles, sector);
   make_folder(job.folder);
@@ -117,6 +109,8 @@ WheelResult run_wheel(const WheelJob& job, const Progress& progress) {
     std::stable_sort(result.operations.begin(), result.operations.end(),
                      [](const auto& a, const auto& b) { return a.id < b.id; });
     write_file(plan, plan_json(result));
+    // What is finished is in the folder, and the verdict on a part of it would be worth nothing.
+    if (progress.stop()) throw Stopped();
   };
   write_file((fs::path(job.folder) / "wheel.json").string(), wheel_json(result.roles));
   run(side_operation(work, progress.part(0.0, 0.4)));

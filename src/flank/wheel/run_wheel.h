@@ -3,11 +3,12 @@
 
 #include "flank/progress.h"
 #include "flank/wheel/plan_file.h"
+#include "flank/wheel_request.h"
 
 namespace flank::internal {
 
 /// Plans, judges and writes: plan.json, wheel.json, tools/, ops/ and, of the whole, the files of a result folder, which verify,
 /// report and post take as any other. Throws UsageError and InputError.
-[[nodiscard]] WheelResult run_wheel(const WheelJob& job, const Progress& progress = {});
+[[nodiscard]] WheelResult run_wheel(const WheelRequest& job, const Progress& progress = {});
 
 }  // namespace flank::internal

@@ -1,4 +1,4 @@
-/// What is asked of a wheel, its operations and what was found of it, as values.
+/// The operations of a wheel and what was found of it, as values.
 #pragma once
 
 #include <optional>
@@ -11,25 +11,6 @@
 #include "flank/wheel/sector.h"
 
 namespace flank::internal {
-
-/// What is asked of a wheel.
-struct WheelJob {
-  std::string part;
-  std::optional<std::string> unit;  ///< of a mesh
-  std::string folder;
-  WheelChoice choice;
-  double tolerance_mm = 0.05;
-  bool rough = true;                   ///< channels are roughed, layer by layer
-  std::optional<std::string> blank;    ///< a closed body; none: turned
-  double allowance_mm = 0.5;           ///< of a turned blank over the part, > 0
-  double most_engagement_deg = 180.0;  ///< while roughing; 180: slots are allowed
-  double most_tilt_deg = 100.0;        ///< between the tool and the wheel's axis, on passes of the tip, in (0, 180]
-  bool edges = true;                   ///< leading and trailing edges are milled
-  std::string effort = "quick";        ///< of the fits
-  double least_coverage = 0.97;        ///< share of what is open of the flow surface, within tolerance
-  std::optional<double> sample_mm;     ///< judge by samples alone, at this spacing
-  std::optional<std::string> tool;     ///< a tool.json; none: found with the sides
-};
 
 /// One operation: a result folder of one sector, or what stopped it.
 struct WheelOperation {

@@ -13,11 +13,12 @@
 #include "flank/wheel/point/channel.h"
 #include "flank/wheel/sector.h"
 #include "flank/wheel/wheel_job.h"
+#include "flank/wheel_request.h"
 
 namespace flank::internal {
 
 struct WheelWork {
-  const WheelJob& job;
+  const WheelRequest& job;
   const WheelRoles& roles;
   const WheelSector& sector;
   const Part& part;

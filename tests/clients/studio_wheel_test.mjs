@@ -1,0 +1,100 @@
+// A whole wheel in the studio: its faces get their roles, its operations are listed as they are done, a stop keeps them, and the
+// whole is judged. Run by ctest (label clients); exit 77 means skipped.
+import assert from 'node:assert/strict';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { Browser } from './browser.mjs';
+import { must, root } from './folder.mjs';
+import { CHOOSER, drop, fill, keep, report, StudioProcess, skipIfMissing } from './studio.mjs';
+
+skipIfMissing();
+/** Seconds: a wheel is many fits, and the machine may do much else. */
+const LONG = 1500;
+let browser, studio, wheel, page;
+before(async () => {
+  wheel = join(root, 'wheel.step');
+  must('example', 'impeller', '-o', wheel, '--quiet');
+  browser = new Browser();
+  studio = await StudioProcess.begin(join(root, 'studio'));
+  page = await browser.open(studio.url, { width: 1440, height: 900 });
+});
+after(async () => {
+  await browser.close();
+  await studio.end();
+});
+
+const live = (what) => `document.querySelector('.live')?.dataset.${what}`;
+const settled = `${live('state')} === 'done'`;
+const listed = () => page.value('[...document.querySelectorAll(".plan tbody tr")].map((row) => [row.querySelector("button").dataset.operation, row.querySelector(".mark").textContent])');
+
+test('the faces of a wheel get their roles, and the job says what it found', async () => {
+  await drop(page, wheel);
+  await page.click('[data-command="wheel"]');
+  await page.until('/main blade/.test(document.querySelector("#chosen").textContent)', LONG);
+  const roles = JSON.parse(must('inspect', wheel, '--wheel', '--json'));
+  const rows = JSON.parse(await page.value(`JSON.stringify(${CHOOSER}.rows.map(({ id, role }) => [id, role]))`));
+  for (const id of roles.hub) assert.equal(rows.find(([face]) => face === id)[1], 'hub');
+  assert.match(await page.value('document.querySelector("#chosen").textContent'), new RegExp(`${roles.blades.filter(({ kind }) => kind !== 'splitter').length} main blades.*hub ${roles.hub[0]}`));
+  const kinds = await page.value('[...document.querySelectorAll(".kind")].map((button) => button.dataset.kind)');
+  for (const kind of ['hub', 'blade side', 'splitter side', 'edge']) assert.ok(kinds.includes(kind), kinds.join());
+  assert.equal(await page.value('document.querySelector("#run").disabled'), false);
+  await keep(page, 'studio-wheel');
+});
+
+// Roughing and edges take most of the time of a wheel; the check by samples alone is quick, and its verdict is no.
+test('operations are listed as they are done; Stop keeps them, and Resume goes on with the others', async () => {
+  for (const [name, value] of Object.entries({ rough: 'off', edges: 'off', sample_mm: '0.5' })) await fill(page, name, value);
+  const line = await page.value('document.querySelector("#line").textContent');
+  assert.match(line, /^flank wheel wheel\.step .*--rough off --edges off --sample 0\.5 -o out$/);
+  assert.match(await page.value('document.querySelector("#python").textContent'), /openflank\.wheel\("wheel\.step", "out", .*rough=False/);
+  await page.click('#run');
+  await page.until('document.querySelector(".plan tbody tr")', LONG);
+  await page.click('.live .stop');
+  await page.until(settled, LONG);
+  const [id] = (await studio.get('state')).jobs.map((job) => job.id), stopped = await studio.get(`jobs/${id}`);
+  assert.equal(stopped.resumable, true);
+  assert.equal(stopped.exit, 1);
+  assert.equal(stopped.plan.pass, undefined);
+  const before = stopped.plan.operations.find((one) => one.id === '20');
+  assert.equal(before.done, true);
+  // What is done is a result that can be looked at.
+  await page.click('[data-operation="20"]');
+  await page.until(report('d.querySelector("#verdict").textContent'), LONG);
+  await page.click('.live .resume');
+  await page.until(`${live('state')} === 'running'`, LONG);
+  const shares = [];
+  while (!(await page.value(settled))) {
+    shares.push(Number(await page.value(live('share'))));
+    await new Promise((done) => setTimeout(done, 500));
+  }
+  shares.forEach((share, k) => assert.ok(k === 0 || share >= shares[k - 1], `the progress fell: ${shares}`));
+  const whole = await studio.get(`jobs/${id}`);
+  const after = whole.plan.operations.find((one) => one.id === '20');
+  assert.equal(after.seconds, before.seconds, 'the sides were not done again');
+  assert.equal(whole.exit === 0, whole.plan.pass);
+  assert.equal(whole.resumable, false);
+  assert.deepEqual(await listed(), whole.plan.operations.map((one) => [one.id, one.done ? (one.pass ? 'done' : 'below') : 'not done']));
+});
+
+test('the verdict is the exit code, and the report shows the whole', async () => {
+  const [job] = (await studio.get('state')).jobs, state = job.exit === 0 ? 'pass' : 'fail';
+  assert.equal(await page.value('document.querySelector(".livehead .pill").dataset.exit'), String(job.exit));
+  assert.ok(await page.value(`document.querySelector(".livehead .pill").classList.contains("${state}")`));
+  assert.equal(await page.value('document.querySelector("[data-operation=whole]").getAttribute("aria-pressed")'), 'true');
+  await page.until(report(`d.querySelector("#verdict").classList.contains("${state}")`), LONG);
+  const passes = JSON.parse(await (await fetch(`${studio.url}api/jobs/${job.id}/files/path.json`)).text()).strips.length;
+  assert.match(await page.value(report('d.querySelector("#subtitle").textContent')), new RegExp(`\\b${passes} passes`));
+  await keep(page, 'studio-wheel-result');
+});
+
+test('a piece of a wheel has no program of the whole, which is said; the archive has every operation', async () => {
+  const [job] = (await studio.get('state')).jobs;
+  await page.until('document.querySelector("#post")', LONG);
+  await page.value('(() => { const m = document.querySelector("#machine-name"); m.value = "linuxcnc-xyzac-trt"; m.dispatchEvent(new Event("change")); document.querySelector("#post").click(); })()');
+  await page.until('document.querySelector(".outcome .pill")', LONG);
+  assert.equal(await page.value('document.querySelector(".outcome .pill").dataset.exit'), '3');
+  assert.match(await page.value('document.querySelector(".outcome .notice").textContent'), /expected a whole wheel/);
+  const zip = Buffer.from(await (await fetch(`${studio.url}api/jobs/${job.id}/zip`)).arrayBuffer());
+  for (const name of ['plan.json', 'ops/20-side/path.json', 'tools/T1.json']) assert.ok(zip.includes(name), name);
+  assert.deepEqual(page.complaints, []);
+});
