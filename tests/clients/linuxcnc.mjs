@@ -144,8 +144,13 @@ export function simulate(folder, text, machine, offset = [0, 0, 0], limit = 250,
   const run = spawnSync(command[0], command.slice(1),
     { cwd: folder, env: environment, encoding: 'utf8', timeout: 1000 * (limit + 30), maxBuffer: 2 ** 28 });
   if (!existsSync(environment.RESULT)) throw new Error(`LinuxCNC did not start:\n${run.stdout}${run.stderr}`);
-  const rows = readFileSync(environment.JOINT_LOG, 'utf8').trim().split('\n').map((l) => l.trim().split(/\s+/).map(Number)), count = machine.joints.length;
-  return { ...JSON.parse(readFileSync(environment.RESULT, 'utf8')), joints: rows.map((row) => row.slice(0, count)), tools: rows.map((row) => row[count]) };
+  return logged(folder, machine);
+}
+
+/** What lies in the folder of a run that has ended, as simulate() returns it. */
+export function logged(folder, machine) {
+  const rows = readFileSync(join(folder, 'joints.log'), 'utf8').trim().split('\n').map((l) => l.trim().split(/\s+/).map(Number)), count = machine.joints.length;
+  return { ...JSON.parse(readFileSync(join(folder, 'result.json'), 'utf8')), joints: rows.map((row) => row.slice(0, count)), tools: rows.map((row) => row[count]) };
 }
 
 const apart = (a, b) => Math.max(...a.map((v, i) => Math.abs(v - b[i])));

@@ -3,13 +3,13 @@
 // usage: linuxcnc_wheel.mjs FOLDER PROGRAM RUN [TIMES LIBRARY]
 //
 // FOLDER is what `flank wheel` wrote, PROGRAM what `flank post FOLDER --machine linuxcnc-xyzac-trt` did. RUN is a new folder: of the run, and
-// of its results done-T1, done-T2, .... With TIMES the simulated time passes so many times as fast as the clock, by the library that
+// of its results done-1, done-2, ..., by the numbers of the tools. A run that lies there already is judged again. With TIMES the simulated time passes so many times as fast as the clock, by the library that
 // `gcc -O2 -shared -fPIC -o LIBRARY linuxcnc_fast.c` makes. FLANK_BINARY and FLANK_LINUXCNC_KINEMATICS name the command and the program that
 // asks LinuxCNC's kinematics, as in the tests.
-import { cpSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { cpSync, existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { flank, json } from './folder.mjs';
-import { fastest, forwardOf, header, machineOf, poses, simulate, stated, toPart } from './linuxcnc.mjs';
+import { fastest, forwardOf, header, logged, machineOf, poses, simulate, stated, toPart } from './linuxcnc.mjs';
 
 const [folder, program, runs, times, library] = process.argv.slice(2);
 const text = readFileSync(program, 'utf8'), plan = json(folder, 'plan.json');
@@ -19,7 +19,7 @@ const MOST_ROWS = 50;  // between two that are kept
 /** Each tool once, with the header of its first operation. */
 const tools = new Map();
 for (const part of text.split(/(?=\(OPERATION \d+ OF)/).slice(1)) {
-  const told = header(part);
+  const told = { ...header(part), rough: /^\(OPERATION[^)]*-rough/.test(part) };
   if (!tools.has(told.number)) tools.set(told.number, told);
 }
 const machine = machineOf('linuxcnc-xyzac-trt', 'xyzac-trt-kins', ['y-offset=20', 'z-offset=10'],
@@ -27,7 +27,7 @@ const machine = machineOf('linuxcnc-xyzac-trt', 'xyzac-trt-kins', ['y-offset=20'
 const [first] = tools.values();
 console.log(`tools ${[...tools.keys()]}, ${stated(text).length} moves`);
 const begun = Date.now();
-const run = simulate(runs, text, machine, first.setup.slice(0, 3), 4000, times ? { times: Number(times), library } : undefined);
+const run = existsSync(join(runs, 'result.json')) ? logged(runs, machine) : simulate(runs, text, machine, first.setup.slice(0, 3), 4000, times ? { times: Number(times), library } : undefined);
 console.log(`${run.outcome} after ${((Date.now() - begun) / 1000).toFixed(0)} s, line ${run.line}, ${run.joints.length} periods of a millisecond` +
   `${run.messages.length ? `, messages: ${run.messages.join('; ')}` : ''}`);
 const jump = fastest(run.joints, machine.joints);
@@ -57,13 +57,13 @@ function bends(rows) {
 }
 
 let bad = 0;
-for (const { number, length, offset, setup } of tools.values()) {
+for (const { number, length, offset, setup, rough: roughs } of tools.values()) {
   const rows = run.joints.filter((row, k) => run.tools[k] === number), top = rows.reduce((most, r) => Math.max(most, r[2]), -Infinity);
   // Away from the part, where the tool comes and goes, nothing is cut.
   const work = rows.slice(rows.findIndex((r) => r[2] < top - 1e-6), rows.findLastIndex((r) => r[2] < top - 1e-6) + 1), kept = bends(work);
   const done = poses(kept, forwardOf({ ...machine, tool: { number, length } })).map((p) => toPart(setup, offset, p));
-  const rough = plan.operations.find((o) => o.kind === 'rough' && o.done && o.tool === `T${number}`);
-  const source = rough ? join(folder, rough.folder) : folder, copy = join(runs, `done-T${number}`);
+  const rough = roughs && plan.operations.find((o) => o.kind === 'rough' && o.done);
+  const source = rough ? join(folder, rough.folder) : folder, copy = join(runs, `done-${number}`);
   cpSync(source, copy, { recursive: true, filter: (name) => !/(manifest\.json|report\.html|verify\.json|plan\.json|\/ops|\/fits)$/.test(name) });
   const path = json(source, 'path.json');
   path.strips = [{ ...path.strips[0], id: 1, poses: done }];
@@ -72,7 +72,7 @@ for (const { number, length, offset, setup } of tools.values()) {
   const real = json(copy, 'verify.json'), planned = json(source, 'verify.json');
   const worst = (v, key) => Math.max(0, ...v.faces.map((f) => f[key]));
   const extra = worst(real, 'overcut_mm') - worst(planned, 'overcut_mm'), bound = worst(real, 'overcut_bound_mm') - worst(planned, 'overcut_bound_mm');
-  console.log(`T${number}: ${work.length} rows, ${kept.length} kept; deepest cut of any face ${(1000 * worst(planned, 'overcut_mm')).toFixed(3)} um planned, ` +
+  console.log(`tool ${number}: ${work.length} rows, ${kept.length} kept; deepest cut of any face ${(1000 * worst(planned, 'overcut_mm')).toFixed(3)} um planned, ` +
     `${(1000 * extra).toFixed(3)} um more done (proved ${(1000 * bound).toFixed(3)}); coverage ${planned.coverage} and ${real.coverage}; exit ${status} ${stderr} ${((Date.now() - begin) / 1000).toFixed(0)} s`);
   if (extra > 0.002) ++bad;
 }
