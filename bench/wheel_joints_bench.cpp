@@ -28,21 +28,22 @@ using namespace flank;
 using namespace flank::internal;
 
 constexpr double kBesideMm = 0.05, kNearMm = 0.02, kToleranceMm = 0.05, kDegrees = 57.29577951308232;
-constexpr double kSmooth = 0.2;  ///< that normals of two faces differ by, as vectors: more is a corner
+constexpr double kSmooth = 0.2;   ///< that normals of two faces differ by, as vectors: more is a corner
 constexpr double kClimbMm = 4.0;  ///< up a side, from the hub
 
 /// What a path leaves beside a border, on one of its faces.
 struct Left {
   double height = 0.0;
   Vec3 normal = Vec3::Zero(), turned = Vec3::Zero();  ///< of the face; the normal of what is left, less that
-  bool flank = false;  ///< by a pass of the flank
+  bool flank = false;                                 ///< by a pass of the flank
 };
 
 class Finished {
  public:
   Finished(const Tool& tool, const Path& path) : path_(path), volume_(tool, path) {}
   /// So far from the border. None where too much is left, or the face ends.
-  [[nodiscard]] std::optional<Left> beside(const Target& face, const Vec3& border, const Vec3& along, double far) const {
+  [[nodiscard]] std::optional<Left> beside(const Target& face, const Vec3& border, const Vec3& along,
+                                           double far) const {
     const Footpoint at = face.closest(border);
     const Vec3 across = at.normal.cross(along).normalized();
     for (const double sign : {1.0, -1.0}) {
@@ -153,7 +154,8 @@ int main(int count, char** words) {
       const std::string name = std::min(role[face.id], what) + " to " + std::max(role[face.id], what);
       const Target &own = *targets.of({face.id}).front(), &beside = *targets.of({other}).front();
       add(face, own, beside, finished, joints[name]);
-      if (role[face.id] == "side" && (what == "hub" || what == "fillet")) climb(face, own, beside, finished, joints["tip to flank"]);
+      if (role[face.id] == "side" && (what == "hub" || what == "fillet"))
+        climb(face, own, beside, finished, joints["tip to flank"]);
     }
   }
   std::printf("median, nine tenths and most, %g mm to either side of a border\n", kBesideMm);

@@ -24,7 +24,8 @@ std::string bytes_of(const fs::path& file) {
 
 std::string bytes_of_hex(const std::string& hex) {
   std::string out;
-  for (std::size_t k = 0; k + 1 < hex.size(); k += 2) out += static_cast<char>(std::stoi(hex.substr(k, 2), nullptr, 16));
+  for (std::size_t k = 0; k + 1 < hex.size(); k += 2)
+    out += static_cast<char>(std::stoi(hex.substr(k, 2), nullptr, 16));
   return out;
 }
 

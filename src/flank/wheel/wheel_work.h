@@ -34,7 +34,8 @@ struct WheelWork {
   std::optional<Tool> rough_tool = {};  ///< T2: roughs, where it is another one
   Path finish = {};                     ///< strips that finish something, in their order
   std::vector<std::string> notes = {};
-  std::optional<TriangleBvh> coarse = {}, all_round = {}, fine = {};  ///< of all faces that a tool may meet, once they are asked for
+  std::optional<TriangleBvh> coarse = {}, all_round = {},
+                             fine = {};  ///< of all faces that a tool may meet, once they are asked for
 
   /// Triangles by which directions are looked for, and those by which paths are held against the part: they are beside the faces by
   /// `kGuardShare` of the tolerance at most.

@@ -130,8 +130,8 @@ Hub hub_ring(const std::string& name, const std::vector<TopoDS_Edge>& section, c
   TopoDS_Solid solid;
   builder.MakeSolid(solid);
   builder.Add(solid, shell.Current());
-  return {volume_of(solid) < 0.0 ? solid.Reversed() : TopoDS_Shape(solid), faces[0], faces[3], {}, {}, faces[1],
-          faces[2]};
+  return {
+      volume_of(solid) < 0.0 ? solid.Reversed() : TopoDS_Shape(solid), faces[0], faces[3], {}, {}, faces[1], faces[2]};
 }
 
 /// The section of the hub at the first angle, turned about X to the second.
