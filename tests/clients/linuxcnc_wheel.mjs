@@ -13,8 +13,9 @@ import { fastest, forwardOf, header, logged, machineOf, poses, simulate, stated,
 
 const [folder, program, runs, times, library] = process.argv.slice(2);
 const text = readFileSync(program, 'utf8'), plan = json(folder, 'plan.json');
-const ALIKE = 1e-5;  // mm and degrees: rows so near to the line between those beside them are left out
+const ALIKE = 1e-4;  // mm and degrees: rows so near to the line between those beside them are left out
 const MOST_ROWS = 50;  // between two that are kept
+const PIECE = 200;     // poses of a strip: the judge groups strips that are near to each other, and one of the whole run has none
 
 /** Each tool once, with the header of its first operation. */
 const tools = new Map();
@@ -65,8 +66,11 @@ for (const { number, length, offset, setup, rough: roughs } of tools.values()) {
   const rough = roughs && plan.operations.find((o) => o.kind === 'rough' && o.done);
   const source = rough ? join(folder, rough.folder) : folder, copy = join(runs, `done-${number}`);
   cpSync(source, copy, { recursive: true, filter: (name) => !/(manifest\.json|report\.html|verify\.json|plan\.json|\/ops|\/fits)$/.test(name) });
-  const path = json(source, 'path.json');
-  path.strips = [{ ...path.strips[0], id: 1, poses: done }];
+  const path = json(source, 'path.json'), [like] = path.strips;
+  path.strips = [];
+  // Each begins where the one before it ends, so nothing of the motion is left out.
+  for (let k = 0; k + 1 < done.length; k += PIECE)
+    path.strips.push({ ...like, id: path.strips.length + 1, poses: done.slice(k, k + PIECE + 1) });
   writeFileSync(join(copy, 'path.json'), JSON.stringify(path));
   const begin = Date.now(), { status, stderr } = flank('verify', copy, '--quiet');
   const real = json(copy, 'verify.json'), planned = json(source, 'verify.json');
