@@ -68,8 +68,7 @@ bool TipRoom::tip_is_free(const Vec3& center) const {
 double TipRoom::rod_room(const Pose& pose, double most) const {
   double least = most;
   if (channel_.wheel == nullptr) return least;
-  // Up to there room is asked for a shank as thick as the upper end of the flank.
-  for (double s = above_; s <= length_ + channel_.reach_mm;) {
+  for (double s = length_; s <= length_ + channel_.reach_mm;) {
     const double gap = std::sqrt(channel_.wheel->closest(pose.at(s)).squared_distance) - rod_mm_;
     least = std::min(least, gap);
     if (least < 0.0) return least;
