@@ -33,6 +33,9 @@ Subcommand add_example(CLI::App& parser) {
       ->capture_default_str();
   app->add_option("--lean", cavity.lean_deg, "Outward lean of the cavity's walls towards the top, degrees");
   app->add_option("--hollow", cavity.hollow_mm, "Hollow depth of the cavity's walls, mm")->capture_default_str();
+  app->add_option("--blades", options->blades,
+                  "Blades of rotor37-blisk: 2 to 33 on a piece of the hub, or 36, the whole wheel")
+      ->capture_default_str();
   app->add_flag("--end-wall", cavity.end_wall, "A wall closes one end of the cavity, F3");
   app->add_flag("--start-wall", cavity.start_wall, "A wall closes the other end of the cavity, the next face");
   app->footer("Examples: flank example envelope-barrel-1 -o barrel.step; flank example rotor37 -o blade.step");

@@ -56,6 +56,7 @@ struct ExampleOptions {
   double bump = 0.01;               ///< height of the bump of deformed-envelope, share of the diagonal
   std::uint64_t seed = 1;           ///< of the noise
   CavityShape cavity = {};          ///< of the example `cavity`
+  int blades = 2;                   ///< of rotor37-blisk: 2 to 33, or 36, the whole wheel
 };
 
 /// Every name that make_example knows, in the order of the documentation.

@@ -53,8 +53,8 @@ struct RadiusRequest {
 struct ObstacleRequest {
   std::optional<std::string> check_faces;   ///< "F88,F12": only these; none: every face that is not machined
   std::optional<std::string> ignore_faces;  ///< "F5": not these
-  /// "given": what the next two and `tool` give, as long as nothing else is asked for; "auto": a cylinder as thick as the flank ends
-  /// (a standard diameter where one is nearly that), long enough to reach out of the part; "none".
+  /// "given": what the next two and `tool` give, and where they give nothing as "auto", which is a cylinder as thick as the flank ends (a standard
+  /// diameter where one is nearly that), or thinner so that it is clear, long enough to reach out of the part; "none".
   std::string shank = "given";
   std::optional<double> shank_radius_mm;  ///< none: that of the flank's upper end
   std::optional<double> shank_length_mm;  ///< a cylinder on the upper end of the flank

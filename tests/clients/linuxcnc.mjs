@@ -4,6 +4,7 @@ import { chmodSync, copyFileSync, existsSync, mkdirSync, readFileSync, writeFile
 import { userInfo } from 'node:os';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { must } from './folder.mjs';
 
 const MODULES = '/usr/lib/linuxcnc/modules';
 const KINEMATICS = process.env.FLANK_LINUXCNC_KINEMATICS;
@@ -99,22 +100,33 @@ function configuration(folder, { kinematics: kins, joints, always = false }) {
 /** What is loaded and joined: joints to themselves and to the log, the tool's length to the kinematics, the switch of the kinematics. */
 function hal({ kinematics: kins, joints, pins }) {
   return ['loadrt [KINS]KINEMATICS', 'loadrt [EMCMOT]EMCMOT servo_period_nsec=[EMCMOT]SERVO_PERIOD num_joints=[KINS]JOINTS',
-    `loadrt sampler depth=20000 cfg=${'f'.repeat(joints.length)}`,
+    `loadrt sampler depth=100000 cfg=${'f'.repeat(joints.length)}s`,
     'addf motion-command-handler servo-thread', 'addf motion-controller servo-thread', 'addf sampler.0 servo-thread',
     ...joints.map((_, i) => `net j${i} joint.${i}.motor-pos-cmd => joint.${i}.motor-pos-fb sampler.0.pin.${i}`),
+    `net number iocontrol.0.tool-number => sampler.0.pin.${joints.length}`,
     ...(kins === 'trivkins' ? [] : [`net length motion.tooloffset.z => ${kins}.tool-offset`, 'net kinstype motion.analog-out-03 => motion.switchkins-type']),
     ...pins.map((p) => `setp ${kins}.${p.replace('=', ' ')}`),
     'net estop iocontrol.0.user-enable-out => iocontrol.0.emc-enable-in', 'net prepare iocontrol.0.tool-prepare => iocontrol.0.tool-prepared',
     'net change iocontrol.0.tool-change => iocontrol.0.tool-changed', ''].join('\n');
 }
 
+/** Words before a command in which LinuxCNC's realtime program has a library loaded: a copy of it, as one with a set user id takes none. */
+function faster(folder, { times, library }, environment) {
+  const app = '/usr/bin/rtapi_app', copy = join(folder, 'rtapi_app');
+  copyFileSync(app, copy);
+  chmodSync(copy, 0o755);
+  Object.assign(environment, { LD_PRELOAD: library, FLANK_TIMES: `${times}` });
+  return ['unshare', '-m', 'sh', '-c', `mount --bind ${copy} ${app} && exec "$@"`, 'sh'];
+}
+
 /**
- * Runs a program to its end in a simulated machine: { outcome, messages, line, joints }. It takes as long as the machine would.
+ * Runs a program to its end in a simulated machine: { outcome, messages, line, joints, tools (the tool's number at each row) }. It takes as long as the machine would.
  * machine: { kinematics, pins, joints: [{ name, kind, travel, speed, acceleration }], tool: { number, length } or a list of them, always: it moves by its
  * kinematics without a word }; offset: where G54 is.
- * LinuxCNC does not run as root; then it runs as nobody.
+ * LinuxCNC does not run as root; then it runs as nobody. fast: { times, library }: its servo periods pass so many times as fast as the clock,
+ * by a library of linuxcnc_fast.c; for that it must be started as root.
  */
-export function simulate(folder, text, machine, offset = [0, 0, 0], limit = 250) {
+export function simulate(folder, text, machine, offset = [0, 0, 0], limit = 250, fast = undefined) {
   mkdirSync(folder);
   const file = (name) => join(folder, name);
   writeFileSync(file('sim.ini'), configuration(folder, machine));
@@ -128,11 +140,17 @@ export function simulate(folder, text, machine, offset = [0, 0, 0], limit = 250)
   const environment = { ...process.env, NGC: file('program.ngc'), RESULT: file('result.json'), JOINT_LOG: file('joints.log'),
     LIMIT_S: `${limit}`, OFFSET: `G10 L2 P1 ${offset.map((v, i) => `${'XYZ'[i]}${v}`).join(' ')}` };
   const words = ['env', `HOME=${folder}`, 'linuxcnc', '-r', 'sim.ini'];
-  const run = spawnSync(root ? 'runuser' : words[0], root ? ['-u', 'nobody', '--', ...words] : words.slice(1),
+  const command = [...(fast ? faster(folder, fast, environment) : []), ...(root ? ['runuser', '-u', 'nobody', '--'] : []), ...words];
+  const run = spawnSync(command[0], command.slice(1),
     { cwd: folder, env: environment, encoding: 'utf8', timeout: 1000 * (limit + 30), maxBuffer: 2 ** 28 });
   if (!existsSync(environment.RESULT)) throw new Error(`LinuxCNC did not start:\n${run.stdout}${run.stderr}`);
-  const joints = readFileSync(environment.JOINT_LOG, 'utf8').trim().split('\n').map((l) => l.trim().split(/\s+/).slice(0, machine.joints.length).map(Number));
-  return { ...JSON.parse(readFileSync(environment.RESULT, 'utf8')), joints };
+  return logged(folder, machine);
+}
+
+/** What lies in the folder of a run that has ended, as simulate() returns it. */
+export function logged(folder, machine) {
+  const rows = readFileSync(join(folder, 'joints.log'), 'utf8').trim().split('\n').map((l) => l.trim().split(/\s+/).map(Number)), count = machine.joints.length;
+  return { ...JSON.parse(readFileSync(join(folder, 'result.json'), 'utf8')), joints: rows.map((row) => row.slice(0, count)), tools: rows.map((row) => row[count]) };
 }
 
 const apart = (a, b) => Math.max(...a.map((v, i) => Math.abs(v - b[i])));
@@ -167,3 +185,30 @@ export function poses(joints, forward) {
 export const forwardOf = ({ kinematics: module, pins, joints, tool }) => (rows) =>
   kinematics(module, joints.map((j) => j.name).join(''), 'forward', [...pins, `tool-offset=${tool.length}`], rows)
     .map(([x, y, z]) => [x, y, z - tool.length]);
+
+/** A machine of ours as LinuxCNC has it: its kinematics with their pins, its joints with their travel and limits. */
+export function machineOf(name, kinematics, pins, tool) {
+  const { joints } = JSON.parse(must('machine', name, '--json'));
+  const at = (letter) => joints.find((j) => j.name === letter);
+  return { kinematics, pins, tool, joints: [...'XYZ', ...joints.filter((j) => j.kind === 'rotary').map((j) => j.name).sort()].map(at) };
+}
+/** What the header of a program says: [x, y, z, a, b, c] of the set-up, length of the tool, distance from the controlled point to s = 0. */
+export function header(text) {
+  const [, , length, offset] = /TOOL DIAMETER (\S+) LENGTH (\S+) TIP OFFSET ([^\s)]+)/.exec(text).map(Number);
+  return { setup: /\(SETUP ([^)]*)\)/.exec(text)[1].split(',').map(Number), number: Number(/\(TOOL (\d+)/.exec(text)[1]), length, offset };
+}
+
+/** From the frame of the work to that of the part, of x_work = Rz(c) Ry(b) Rx(a) x_part + (x, y, z), and from the controlled point to s = 0. */
+export function toPart([x, y, z, ...angles], offset, pose) {
+  const [a, b, c] = angles.map((v) => (v * Math.PI) / 180);
+  const back = (v) => {
+    const turn = ([p, q], angle) => [p * Math.cos(angle) + q * Math.sin(angle), q * Math.cos(angle) - p * Math.sin(angle)];
+    let [vx, vy, vz] = v;
+    [vx, vy] = turn([vx, vy], c);
+    [vz, vx] = turn([vz, vx], b);
+    [vy, vz] = turn([vy, vz], a);
+    return [vx, vy, vz];
+  };
+  const tip = back([pose[0] - x, pose[1] - y, pose[2] - z]), axis = back(pose.slice(3));
+  return [...tip.map((v, k) => v + offset * axis[k]), ...axis];
+}

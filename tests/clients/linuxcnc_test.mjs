@@ -7,7 +7,7 @@ import { dirname, join } from 'node:path';
 import { before, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { BINARY, flank, json, must, root, without } from './folder.mjs';
-import { fastest, forwardOf, interpret, moving, poses, simulate, stated, whyNot } from './linuxcnc.mjs';
+import { fastest, forwardOf, header, interpret, machineOf, moving, poses, simulate, stated, toPart, whyNot } from './linuxcnc.mjs';
 
 const why = BINARY ? whyNot() : 'FLANK_BINARY does not name the command';
 if (why) {
@@ -24,12 +24,6 @@ const golden = (name) => readFileSync(join(GOLDEN, `${name}.txt`), 'utf8');
 let count = 0;
 const fresh = () => join(root, `linuxcnc-${++count}`);
 
-/** A machine of ours as LinuxCNC has it: its kinematics with their pins, its joints with their travel and limits. */
-function machineOf(name, kinematics, pins, tool) {
-  const { joints } = JSON.parse(must('machine', name, '--json'));
-  const at = (letter) => joints.find((j) => j.name === letter);
-  return { kinematics, pins, tool, joints: [...'XYZ', ...joints.filter((j) => j.kind === 'rotary').map((j) => j.name).sort()].map(at) };
-}
 const XYZAC = ['xyzac-trt-kins', ['y-offset=20', 'z-offset=10']], XYZBC = ['xyzbc-trt-kins', ['x-offset=20', 'z-offset=10']];
 
 function expectSameMoves(text, tool) {
@@ -80,27 +74,6 @@ test('a golden program runs to its end through every point that it states', () =
   for (const [kind, x, y, z] of stated(golden('linuxcnc_switched')).filter((m) => m[0] === 'FEED'))
     assert.ok(Math.min(...done.map((p) => Math.hypot(p[0] - x, p[1] - y, p[2] - z))) < 0.05, `${kind} ${x} ${y} ${z}`);
 });
-
-/** What the header of a program says: [x, y, z, a, b, c] of the set-up, length of the tool, distance from the controlled point to s = 0. */
-function header(text) {
-  const [, , length, offset] = /TOOL DIAMETER (\S+) LENGTH (\S+) TIP OFFSET ([^\s)]+)/.exec(text).map(Number);
-  return { setup: /\(SETUP ([^)]*)\)/.exec(text)[1].split(',').map(Number), number: Number(/\(TOOL (\d+)/.exec(text)[1]), length, offset };
-}
-
-/** From the frame of the work to that of the part, of x_work = Rz(c) Ry(b) Rx(a) x_part + (x, y, z), and from the controlled point to s = 0. */
-function toPart([x, y, z, ...angles], offset, pose) {
-  const [a, b, c] = angles.map((v) => (v * Math.PI) / 180);
-  const back = (v) => {
-    const turn = ([p, q], angle) => [p * Math.cos(angle) + q * Math.sin(angle), q * Math.cos(angle) - p * Math.sin(angle)];
-    let [vx, vy, vz] = v;
-    [vx, vy] = turn([vx, vy], c);
-    [vz, vx] = turn([vz, vx], b);
-    [vy, vz] = turn([vy, vz], a);
-    return [vx, vy, vz];
-  };
-  const tip = back([pose[0] - x, pose[1] - y, pose[2] - z]), axis = back(pose.slice(3));
-  return [...tip.map((v, k) => v + offset * axis[k]), ...axis];
-}
 
 /** The samples from the first to the last point that the program reaches at feed; `rows` are what its words state. */
 function cutting(rows, text, letters) {

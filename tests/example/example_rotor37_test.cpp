@@ -136,6 +136,28 @@ TEST(Rotor37, EdgesGoRoundTheFirstAndTheLastStations) {
   }
 }
 
+/// The kernel names no faces of what is turned all round: the hub of the whole rotor is made in another way than that of a piece.
+TEST(Rotor37, AHubThatGoesAllRoundHasNoCuts) {
+  const std::vector<Face> blade = rotor37_faces(Rotor37Root::kInsideTheHub);
+  std::vector<Face> opposite = blade;
+  for (Face& face : opposite)
+    for (Vec3& pole : face.surface.poles) pole = Vec3(pole.x(), -pole.y(), -pole.z());
+  HubSector hub;
+  const std::vector<Vec2> outline = rotor37_hub();
+  hub.profile.assign(outline.begin() + 5, outline.begin() + 21);
+  hub.bore_radius_mm = 150.0;
+  hub.from_rad = -0.4, hub.to_rad = hub.from_rad + 2.0 * 3.14159265358979323846;
+  const SolidModel ring = fuse_blisk("ring", hub, {blade, opposite});
+  // Skin, front and back; four round about each blade; the bore; the tips.
+  ASSERT_EQ(ring.faces.size(), 3U + 2U * 4U + 1U + 2U);
+  double most = 0.0;
+  for (const Vec3& pole : ring.faces[0].surface.poles) most = std::max(most, std::hypot(pole.y(), pole.z()));
+  EXPECT_GT(most, 170.0);
+  ExampleOptions overlapping;
+  overlapping.blades = 34;
+  EXPECT_THROW((void)make_example("rotor37-blisk", overlapping), UsageError);
+}
+
 TEST(Rotor37, NeighboursShareTheirBorders) {
   const std::vector<Face> faces = rotor37_faces();
   for (int i = 0; i <= 50; ++i) {

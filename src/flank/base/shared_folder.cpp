@@ -1,28 +1,15 @@
 #include "flank/base/shared_folder.h"
 
-#include <dlfcn.h>
-
 #include <cstdlib>
 #include <filesystem>
 
+#include "flank/base/own_code.h"
 #include "flank/error.h"
 
 namespace flank::internal {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The file that this code was loaded from: the program, or a shared library in it, as a Python module is. Empty where the
-/// system does not tell.
-fs::path code_file() {
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  Dl_info info{};
-  if (dladdr(reinterpret_cast<const void*>(&is_folder), &info) == 0 || info.dli_fname == nullptr) return program;
-  // A program may have been called by a name that is no path; a library's is what it was loaded by.
-  const fs::path loaded = info.dli_fname;
-  return loaded.is_absolute() && !fs::equivalent(loaded, program, error) ? loaded : program;
-}
 
 /// The nearest share/openflank/NAME above a file; empty: there is none.
 std::string above(const fs::path& file, const char* name) {
@@ -46,7 +33,7 @@ std::string find_shared_folder(const SharedFolder& folder) {
     if (is_folder(wanted)) return wanted;
     throw InputError(std::string(folder.variable) + "=" + wanted + ": no such folder; give one of " + folder.content);
   }
-  const fs::path code = code_file();
+  const fs::path code = own_code_file();
   const std::string found = above(code, folder.name);
   if (!found.empty()) return found;
   if (is_folder(folder.installed)) return folder.installed;

@@ -182,7 +182,7 @@ std::vector<Recipe> all_recipes() {
       {"elliptic-side", "slightly elliptic side, almost a cone", [](Options) { return blade(elliptic_side()); }},
       {"rotor37", "blade of NASA Rotor 37, a solid: sides F1 and F3", [](Options) { return solid(rotor37_blade()); }},
       {"rotor37-blisk", "two blades of NASA Rotor 37 on a piece of the hub, a solid: cavity between F9 and F11",
-       [](Options) { return solid(rotor37_blisk()); }},
+       [](Options options) { return solid(rotor37_blisk(options.blades)); }},
       {"impeller",
        "two main blades and two splitters of an impeller on a sector of the hub, a solid: sides F9, F7, F13, F11, F17, "
        "F15, F21, F19",
@@ -207,6 +207,9 @@ void check(const ExampleOptions& options) {
     throw UsageError("an example mesh has 100 to 4000000 vertices, got " + std::to_string(options.mesh_vertices));
   if (!(options.noise >= 0.0 && options.noise <= 0.01) || !(std::abs(options.bump) <= 0.1))
     throw UsageError("the noise of an example must lie in [0, 0.01] and its bump in [-0.1, 0.1] of the diagonal");
+  if (options.blades != kRotor37Blades && (options.blades < 2 || options.blades > kRotor37MostOfPiece))
+    throw UsageError("the blisk of an example has 2 to " + std::to_string(kRotor37MostOfPiece) + " blades or all " +
+                     std::to_string(kRotor37Blades) + ", got " + std::to_string(options.blades));
 }
 
 }  // namespace

@@ -183,15 +183,18 @@ std::vector<Face> rotor37_faces(Rotor37Root root) {
 
 SolidModel rotor37_blade() { return sew_solid("rotor37", rotor37_faces()); }
 
-SolidModel rotor37_blisk() {
+SolidModel rotor37_blisk(int blades) {
   const std::vector<Vec2> outline = rotor37_hub();
   HubSector hub;
   hub.profile.assign(outline.begin() + kHubFirst, outline.begin() + kHubLast + 1);
   hub.bore_radius_mm = kBoreRadiusMm;
   hub.from_rad = kSectorFromRad;
-  hub.to_rad = kSectorToRad;
+  hub.to_rad =
+      blades == kRotor37Blades ? hub.from_rad + 360.0 * kDegreesToRad : kSectorToRad + (blades - 2) * kRotor37PitchRad;
   const std::vector<Face> blade = rotor37_faces(Rotor37Root::kInsideTheHub);
-  return fuse_blisk("rotor37-blisk", hub, {blade, turned(blade, kRotor37PitchRad)});
+  std::vector<std::vector<Face>> all;
+  for (int k = 0; k < blades; ++k) all.push_back(turned(blade, k * kRotor37PitchRad));
+  return fuse_blisk("rotor37-blisk", hub, all);
 }
 
 }  // namespace flank::internal

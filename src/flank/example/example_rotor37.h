@@ -23,10 +23,14 @@ enum class Rotor37Root { kAtTheHub, kInsideTheHub };
 
 /// Angle about the X axis between the two blades of the blisk, as between the 36 of the rotor.
 inline constexpr double kRotor37PitchRad = 10.0 * 3.14159265358979323846 / 180.0;
+inline constexpr int kRotor37Blades = 36;  ///< of the rotor
+inline constexpr int kRotor37MostOfPiece =
+    33;  ///< blades: a piece of the hub has cuts, which more would bring to overlap
 
 /// 49 degrees of the hub with two blades, no fillets, one solid of 16 faces: F1 the hub's skin; F2, F5 its front and
 /// back; F3, F4 its cuts; F14 its bore; F9, F6, F7, F8 are F1 to F4 of the blade where it was published, F13, F10, F11,
-/// F12 those of the next; F15, F16 their tips. The cavity lies between F9 and F11.
-[[nodiscard]] SolidModel rotor37_blisk();
+/// F12 those of the next; F15, F16 their tips. The cavity lies between F9 and F11. With more blades the hub is a pitch longer for each,
+/// and their faces follow those of the second; with kRotor37Blades it goes all round, and has no cuts.
+[[nodiscard]] SolidModel rotor37_blisk(int blades = 2);
 
 }  // namespace flank::internal

@@ -39,13 +39,12 @@ void visit_obstacles(Request& obstacles, Visitor& visit) {
   visit(FieldInfo{"ignore_faces", "", kFaces,
                   "Faces that the tool may cut into; they are not checked. S2-S5 names all faces of solids 2 to 5"},
         obstacles.ignore_faces);
-  visit(
-      FieldInfo{
-          "shank", "", kAbove,
-          "auto: a shank as thick as the flank's upper end, or the standard diameter just below it, long enough to "
-          "reach out of the part; none: no shank; given: that of --shank-length or of the tool",
-          kShank},
-      obstacles.shank);
+  visit(FieldInfo{"shank", "", kAbove,
+                  "given: that of --shank-length or of the tool, and where there is none as auto; auto: a shank that "
+                  "reaches out of "
+                  "the part, as thick as the flank's upper end or thinner, so that it is clear; none: no shank",
+                  kShank},
+        obstacles.shank);
   visit(FieldInfo{"shank_length", "mm", kAbove, "Length of a cylindrical shank above the flank", kLength},
         obstacles.shank_length_mm);
   visit(FieldInfo{"shank_radius", "mm", kAbove, "Shank radius. Default: the radius of the flank's upper end", kLength},

@@ -24,10 +24,11 @@ void visit_wheel_work(Request& wheel, Visitor& visit) {
   visit(FieldInfo{"edges", "", "", "off: leading and trailing edges are not machined", kAny, Spelling::kOnOff},
         wheel.edges);
   visit(
-      FieldInfo{"blank", "", kRoughing,
-                "The blank, a closed body that lies where the part does, as a CAD or mesh file. Default: turned about "
-                "the part",
-                kAny, Spelling::kFile},
+      FieldInfo{
+          "blank", "", kRoughing,
+          "The blank, a closed body that lies where the part does, as a CAD or mesh file. Default: a turned blank "
+          "(a body of revolution) round the part",
+          kAny, Spelling::kFile},
       wheel.blank);
   visit(FieldInfo{"allowance", "mm", kRoughing, "Stock of a turned blank over the part", kLength}, wheel.allowance_mm);
   visit(FieldInfo{"most_engagement", "deg", kRoughing,

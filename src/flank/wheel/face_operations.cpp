@@ -39,6 +39,7 @@ FloorChannel around(WheelWork& work) {
   out.walls = work.walls();
   for (const Target* floor : work.floor()) out.walls.push_back(floor);
   out.coarse = &work.coarse_triangles();
+  out.wheel = &work.wheel_triangles(), out.reach_mm = work.reach_mm();
   return out;
 }
 

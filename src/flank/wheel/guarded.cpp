@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "flank/base/parallel.h"
+#include "flank/wheel/point/axis_rod.h"
 #include "flank/wheel/point/motion_guard.h"
 #include "flank/wheel/point/pass_strips.h"
 
@@ -19,6 +20,26 @@ constexpr int kAlong = 8;  ///< poses to either side that are lifted along, less
 MotionGuard guard_of(WheelWork& work, const RadialFunction& radial, double most_mm) {
   return {work.guard_triangles(), WheelWork::kGuardShare * work.job.tolerance_mm, radial, most_mm};
 }
+
+/// Whether anything could hold the tool during a motion: the rod in its axis above the flank keeps out of the whole wheel.
+class HoldGuard {
+ public:
+  HoldGuard(WheelWork& work, const RadialFunction& radial)
+      : from_mm_(radial.axis_length()),
+        rod_(ToolFamily::kCylinder, work.reach_mm(),
+             Eigen::VectorXd::Constant(1, rod_radius(radial, work.reach_mm(), RodRoom::kGuarded))),
+        guard_(work.wheel_triangles(), 0.0, rod_, 0.0) {}
+  HoldGuard(const HoldGuard&) = delete;
+  HoldGuard& operator=(const HoldGuard&) = delete;
+  [[nodiscard]] bool is_free(const Pose& from, const Pose& to) const {
+    return guard_.is_free({from.at(from_mm_), from.axis}, {to.at(from_mm_), to.axis});
+  }
+
+ private:
+  double from_mm_;
+  RadialFunction rod_;
+  MotionGuard guard_;
+};
 
 /// How far each pose moves: as the one beside it that needs most asks, less by how far that is.
 std::vector<Vec3> spread(const std::vector<Vec3>& needs) {
@@ -59,13 +80,15 @@ Path guarded(WheelWork& work, const Path& path) {
 
 Path guarded(WheelWork& work, const Path& path, const RadialFunction& radial, double most_mm) {
   const MotionGuard guard = guard_of(work, radial, most_mm);
+  const HoldGuard hold(work, radial);
   std::vector<std::pair<std::size_t, std::size_t>> all;
   for (std::size_t s = 0; s < path.strips.size(); ++s)
     for (std::size_t k = 0; k + 1 < path.strips[s].poses.size(); ++k) all.emplace_back(s, k);
   std::vector<char> free(all.size(), 0);
   parallel_for(all.size(), [&](std::size_t n) {
     const std::vector<Pose>& poses = path.strips[all[n].first].poses;
-    free[n] = guard.is_free(poses[all[n].second], poses[all[n].second + 1]) ? 1 : 0;
+    const Pose &from = poses[all[n].second], &to = poses[all[n].second + 1];
+    free[n] = guard.is_free(from, to) && hold.is_free(from, to) ? 1 : 0;
   });
   Path out;
   const PointOptions options = work.point_options();

@@ -15,7 +15,6 @@
 #include "flank/setup/tool_body.h"
 #include "flank/tool_file.h"
 #include "flank/tool_request/tool_spec.h"
-#include "flank/version.h"
 #include "flank/wheel/blade_copies.h"
 #include "flank/wheel/guarded.h"
 #include "flank/wheel/judge_whole.h"
@@ -101,8 +100,8 @@ SideFit side_fit(WheelWork& work, const Names& side, const std::string& spec, co
   namespace fs = std::filesystem;
   const FitJob job = side_job(work, side, spec);
   const fs::path folder = in_folder(work, "fits/" + face_list(side));
-  const std::string key =
-      sha256(work.part.sha256 + kVersion + job_to_json(job) + (work.tool ? tool_to_json(*work.tool) : std::string()));
+  const std::string key = sha256(work.part.sha256 + work.program + job_to_json(job) +
+                                 (work.tool ? tool_to_json(*work.tool) : std::string()));
   const std::string mark = (folder / "key.txt").string(), tool = (folder / "tool.json").string(),
                     path = (folder / "path.json").string();
   if (fs::exists(mark) && fs::exists(tool) && fs::exists(path) && read_file(mark) == key)
@@ -114,7 +113,8 @@ SideFit side_fit(WheelWork& work, const Names& side, const std::string& spec, co
   write_tool(result.tool, tool);
   write_path(result.path, path);
   write_file(mark, key);
-  return {result.tool, result.path};
+  // As a run that goes on from here has them.
+  return {read_tool(tool), read_path(path)};
 }
 
 /// A side of the sector, and the equal one whose fit it takes, turned.

@@ -10,7 +10,6 @@
 #include "flank/error.h"
 #include "flank/path_file.h"
 #include "flank/results/acceptance.h"
-#include "flank/version.h"
 
 namespace flank::internal {
 
@@ -40,7 +39,7 @@ std::string tool_file(const WheelWork& work, const std::string& tool) {
 WheelOperation perform(const WheelWork& work, WheelOperation operation, const std::string& decides,
                        const std::function<Result()>& make) {
   operation.folder = "ops/" + operation.id + "-" + operation.kind;
-  operation.key = sha256(work.part.sha256 + kVersion + decides + fmt::format(" {}", work.job.most_tilt_deg));
+  operation.key = sha256(work.part.sha256 + work.program + decides + fmt::format(" {}", work.job.most_tilt_deg));
   const auto known = work.finished.find(operation.id);
   if (known != work.finished.end() && known->second.done && known->second.key == operation.key &&
       fs::exists(in_folder(work, operation.folder + "/path.json"))) {

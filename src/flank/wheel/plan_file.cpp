@@ -27,7 +27,6 @@ nlohmann::ordered_json operation_json(const WheelOperation& o, int copies) {
                               {"folder", o.folder},
                               {"copies", o.copies > 0 ? o.copies : copies},
                               {"faces", o.faces},
-                              {"seconds", o.seconds},
                               {"done", o.done},
                               {"pass", o.pass},
                               {"key", o.key}};
@@ -111,7 +110,7 @@ WheelOperation operation_from(const nlohmann::json& json) {
   WheelOperation out;
   out.id = json.at("id"), out.kind = json.at("kind"), out.folder = json.at("folder"), out.tool = json.at("tool");
   out.faces = json.at("faces").get<std::vector<std::string>>();
-  out.seconds = json.at("seconds"), out.key = json.at("key");
+  out.key = json.at("key");
   out.done = json.at("done"), out.pass = json.at("pass");
   out.copies = json.value("copies", 0);
   out.problem = json.value("problem", "");

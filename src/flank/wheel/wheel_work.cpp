@@ -1,6 +1,7 @@
 #include "flank/wheel/wheel_work.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -53,6 +54,18 @@ std::vector<TurnedFaces> missing_floor(const WheelWork& work) {
 std::vector<TurnedFaces> missing_faces(const WheelWork& work) {
   std::vector<TurnedFaces> out = missing_walls(work);
   for (TurnedFaces& more : missing_floor(work)) out.push_back(std::move(more));
+  return out;
+}
+
+/// All that the wheel has and the part has not.
+std::vector<TurnedFaces> all_missing(const WheelWork& work) {
+  std::vector<TurnedFaces> out;
+  for (const MissingBlade& one : missing_blades(work.roles, work.sector)) {
+    out.push_back({one.blade.flow(), one.turns});
+    append(out.back().faces, one.blade.tips);
+  }
+  if (work.sectors_of_hub() < work.roles.count)
+    for (int turns = 1; turns < work.roles.count; ++turns) out.push_back({work.roles.hub, turns});
   return out;
 }
 
@@ -132,6 +145,31 @@ const TriangleBvh& WheelWork::coarse_triangles() {
     for (const WheelFace& face : faces)
       if (holds(more.faces, face.id)) append_turned(face.mesh, *this, more.turns, all);
   return coarse.emplace(all);
+}
+
+const TriangleBvh& WheelWork::wheel_triangles() {
+  const std::vector<TurnedFaces> lacking = all_missing(*this);
+  if (lacking.empty()) return coarse_triangles();
+  if (all_round) return *all_round;
+  TriangleMesh all;
+  Names names = wall_faces(roles);
+  append(names, roles.hub);
+  for (const WheelFace& face : faces) {
+    if (holds(names, face.id)) flank::internal::append(all, face.mesh);
+    for (const TurnedFaces& more : lacking)
+      if (holds(more.faces, face.id)) append_turned(face.mesh, *this, more.turns, all);
+  }
+  return all_round.emplace(all);
+}
+
+double WheelWork::reach_mm() const {
+  double along = 0.0, radius = 0.0, low = 1e300, high = -1e300;
+  for (const WheelFace& face : faces)
+    for (const Vec3& p : face.mesh.vertices) {
+      along = roles.axis.along(p), radius = std::max(radius, roles.axis.radius(p));
+      low = std::min(low, along), high = std::max(high, along);
+    }
+  return std::hypot(2.0 * radius, high - low);
 }
 
 const TriangleBvh& WheelWork::guard_triangles() {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "flank/base/own_code.h"
 #include "flank/feature/wheel_face.h"
 #include "flank/tool.h"
 #include "flank/wheel/blank.h"
@@ -26,6 +27,7 @@ struct WheelWork {
   FaceTargets targets;
   std::vector<WheelFace> faces;                         ///< as triangles: what directions are chosen by
   std::map<std::string, WheelOperation> finished = {};  ///< of an earlier run, by id
+  std::string program = own_code_id();                  ///< what another build has found is found again
   /// How far the blades are from turned copies of the first one, mm. From `kEqualShare` of the tolerance on every sector has paths of its
   /// own, and `finish` holds them all.
   double difference_mm = 0.0;
@@ -33,12 +35,16 @@ struct WheelWork {
   std::optional<Tool> rough_tool = {};  ///< T2: roughs, where it is another one
   Path finish = {};                     ///< strips that finish something, in their order
   std::vector<std::string> notes = {};
-  std::optional<TriangleBvh> coarse = {}, fine = {};  ///< of all faces that a tool may meet, once they are asked for
+  std::optional<TriangleBvh> coarse = {}, all_round = {},
+                             fine = {};  ///< of all faces that a tool may meet, once they are asked for
 
   /// Triangles by which directions are looked for, and those by which paths are held against the part: they are beside the faces by
   /// `kGuardShare` of the tolerance at most.
   [[nodiscard]] const TriangleBvh& coarse_triangles();
   [[nodiscard]] const TriangleBvh& guard_triangles();
+  /// The whole wheel, with all blades that the part lacks, as the first of these: what stands in the way of an axis far above the flank.
+  [[nodiscard]] const TriangleBvh& wheel_triangles();
+  [[nodiscard]] double reach_mm() const;  ///< no two places of the wheel are farther from each other
   static constexpr double kGuardShare = 0.02;
   static constexpr double kEqualShare = 0.1;
   [[nodiscard]] bool equal() const { return difference_mm <= kEqualShare * job.tolerance_mm; }

@@ -8,6 +8,7 @@
 
 #include "flank/geom/triangle_bvh.h"
 #include "flank/judge.h"
+#include "flank/tool.h"
 #include "flank/wheel/point/tip_room.h"
 
 namespace flank::internal {
@@ -104,6 +105,38 @@ TEST(PointPasses, FinishFloorAndWallsAndCutNothing) {
     EXPECT_GE(wall.least, -0.4 * kTolerance);
     EXPECT_LE(wall.most, kTolerance);
   }
+}
+
+/// Something that stands far above the flank, over the middle of the channel.
+TEST(PointPasses, TheAxisKeepsOutOfWhatStandsFarAboveTheFlank) {
+  constexpr double kUp = 40.0, kHalf = 10.0;
+  const Channel channel;
+  TriangleMesh bar;
+  add_plane(Vec3(-kLength, 0.5 * kWidth - kHalf, kUp), 3.0 * channel.along, 2.0 * kHalf * Vec3::UnitY(), bar);
+  const TriangleBvh wheel(bar);
+  FloorChannel asked = channel.asked();
+  PointOptions options;
+  options.tolerance_mm = kTolerance;
+  options.is_finished = [](const Vec3&) { return true; };
+  const auto through = [&](const std::vector<Strip>& strips) {
+    int out = 0;
+    for (const Strip& strip : strips)
+      for (const Pose& pose : strip.poses) {
+        const double s = (kUp - pose.tip.z()) / pose.axis.z();
+        if (std::abs(pose.at(s).y() - 0.5 * kWidth) < kHalf) ++out;
+      }
+    return out;
+  };
+  EXPECT_GT(through(point_passes(asked, channel.radial, options, "F1", "F2", "F3")), 0);
+  asked.wheel = &wheel, asked.reach_mm = 2.0 * kUp;
+  const std::vector<Strip> strips = point_passes(asked, channel.radial, options, "F1", "F2", "F3");
+  EXPECT_GT(strips.size(), 5U);
+  EXPECT_EQ(through(strips), 0);
+  // A rod has a radius: beside the bar there is no room either.
+  const TipRoom room(asked, channel.radial, options);
+  const double rod = kRodShare * kTip, beside = 0.5 * kWidth + kHalf;
+  EXPECT_FALSE(room.is_free({Vec3(0.5 * kLength, beside + 0.9 * rod, 8.0), Vec3::UnitZ()}));
+  EXPECT_TRUE(room.is_free({Vec3(0.5 * kLength, beside + 2.0 * rod + 0.02 * kUp, 8.0), Vec3::UnitZ()}));
 }
 
 TEST(PointPasses, AWallThatIsFinishedHasNone) {

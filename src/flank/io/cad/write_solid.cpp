@@ -115,8 +115,27 @@ struct Hub {
   TopoDS_Face skin, front, from, to, back, bore;
 };
 
+/// The kernel names no faces of a section that is turned all round, so each of its edges is turned by itself.
+Hub hub_ring(const std::string& name, const std::vector<TopoDS_Edge>& section, const gp_Ax1& axis) {
+  std::vector<TopoDS_Face> faces;
+  BRepBuilderAPI_Sewing sewing(kSewingMm);
+  for (const TopoDS_Edge& edge : section) {
+    faces.push_back(TopoDS::Face(BRepPrimAPI_MakeRevol(edge, axis).Shape()));
+    sewing.Add(faces.back());
+  }
+  sewing.Perform();
+  const TopExp_Explorer shell(sewing.SewedShape(), TopAbs_SHELL);
+  if (!shell.More()) throw InternalError(name + ": the faces of the hub cannot be joined");
+  const BRep_Builder builder;
+  TopoDS_Solid solid;
+  builder.MakeSolid(solid);
+  builder.Add(solid, shell.Current());
+  return {
+      volume_of(solid) < 0.0 ? solid.Reversed() : TopoDS_Shape(solid), faces[0], faces[3], {}, {}, faces[1], faces[2]};
+}
+
 /// The section of the hub at the first angle, turned about X to the second.
-Hub hub_solid(const HubSector& hub) {
+Hub hub_solid(const std::string& name, const HubSector& hub) {
   const auto at = [&](double x, double radius) {
     return gp_Pnt(x, radius * std::cos(hub.from_rad), radius * std::sin(hub.from_rad));
   };
@@ -136,9 +155,10 @@ Hub hub_solid(const HubSector& hub) {
                     back = BRepBuilderAPI_MakeEdge(back_out, back_in),
                     bore = BRepBuilderAPI_MakeEdge(back_in, front_in),
                     front = BRepBuilderAPI_MakeEdge(front_in, front_out);
+  const gp_Ax1 axis(gp_Pnt(0.0, 0.0, 0.0), gp_Dir(1.0, 0.0, 0.0));
+  if (hub.is_whole()) return hub_ring(name, {skin, back, bore, front}, axis);
   const TopoDS_Wire wire = BRepBuilderAPI_MakeWire(skin, back, bore, front);
-  BRepPrimAPI_MakeRevol turned(BRepBuilderAPI_MakeFace(wire, Standard_True),
-                               gp_Ax1(gp_Pnt(0.0, 0.0, 0.0), gp_Dir(1.0, 0.0, 0.0)), hub.to_rad - hub.from_rad);
+  BRepPrimAPI_MakeRevol turned(BRepBuilderAPI_MakeFace(wire, Standard_True), axis, hub.turn_rad());
   const auto swept = [&](const TopoDS_Edge& edge) { return TopoDS::Face(turned.Generated(edge).First()); };
   const TopoDS_Shape solid = turned.Shape();
   return {volume_of(solid) < 0.0 ? solid.Reversed() : solid,
@@ -154,7 +174,9 @@ Hub hub_solid(const HubSector& hub) {
 TopoDS_Solid fused(const std::string& name, const Hub& hub, const std::vector<std::vector<TopoDS_Face>>& blades) {
   TopTools_ListOfShape arguments, tools;
   arguments.Append(hub.solid);
-  std::vector<TopoDS_Face> order{hub.skin, hub.front, hub.from, hub.to, hub.back}, tips;
+  std::vector<TopoDS_Face> order{hub.skin, hub.front}, tips;
+  if (!hub.from.IsNull()) order.insert(order.end(), {hub.from, hub.to});
+  order.push_back(hub.back);
   for (const std::vector<TopoDS_Face>& blade : blades) {
     tools.Append(sewn(name, blade));
     for (const std::size_t k : {1u, 2u, 3u, 0u}) order.push_back(blade[k]);
@@ -186,7 +208,7 @@ SolidModel fuse_blisk(const std::string& name, const HubSector& hub, const std::
   try {
     std::vector<std::vector<TopoDS_Face>> made;
     for (const std::vector<Face>& blade : blades) made.push_back(occt_faces(blade));
-    return model_of(name, fused(name, hub_solid(hub), made));
+    return model_of(name, fused(name, hub_solid(name, hub), made));
   } catch (const Standard_Failure& failure) {
     throw InternalError(name + ": the solid cannot be made (" + failure.GetMessageString() + ")");
   }

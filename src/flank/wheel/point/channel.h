@@ -19,7 +19,10 @@ struct FloorChannel {
       second;  ///< the sides that bound the channel; a right-handed turn goes from first to second
   std::vector<const Target*> walls;  ///< all that the tool keeps out of besides the floor: sides, edges, tips, fillets
   const TriangleBvh* coarse =
-      nullptr;            ///< floor and walls as triangles: where directions are looked for; null: no such search
+      nullptr;  ///< floor and walls as triangles: where directions are looked for; null: no such search
+  /// The whole wheel as triangles: above the flank the tool's axis keeps out of it. Null: nothing is asked there.
+  const TriangleBvh* wheel = nullptr;
+  double reach_mm = 0.0;  ///< no two places of the wheel are farther from each other
   double blade_mm = 0.0;  ///< thickness of the blades at their feet: so far the floor goes on beyond a side's end
 };
 

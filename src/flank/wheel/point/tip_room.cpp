@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "flank/wheel/point/axis_rod.h"
+
 namespace flank::internal {
 namespace {
 
@@ -40,6 +42,7 @@ TipRoom::TipRoom(const FloorChannel& channel, const RadialFunction& radial, cons
       enter_mm_(options.enter_share * options.tolerance_mm),
       length_(radial.axis_length()),
       above_(length_ + 2.0 * radial.at(length_).r),
+      rod_mm_(rod_radius(radial, channel.reach_mm, RodRoom::kPlanned)),
       held_(options.held) {}
 
 std::optional<TipRoom::Rest> TipRoom::rest(const Vec3& p) const {
@@ -60,6 +63,18 @@ std::optional<TipRoom::Rest> TipRoom::rest(const Vec3& p) const {
 bool TipRoom::tip_is_free(const Vec3& center) const {
   const Footpoint foot = nearest_foot(channel_.walls, center, tip_mm_ + kHorizonMm);
   return foot.patch < 0 || height_of(foot) - tip_mm_ >= -enter_mm_;
+}
+
+double TipRoom::rod_room(const Pose& pose, double most) const {
+  double least = most;
+  if (channel_.wheel == nullptr) return least;
+  for (double s = length_; s <= length_ + channel_.reach_mm;) {
+    const double gap = std::sqrt(channel_.wheel->closest(pose.at(s)).squared_distance) - rod_mm_;
+    least = std::min(least, gap);
+    if (least < 0.0) return least;
+    s += std::max(kStepMm, gap);
+  }
+  return least;
 }
 
 double TipRoom::room(const Pose& pose, double up_to) const {
@@ -86,7 +101,8 @@ double TipRoom::room(const Pose& pose, double up_to) const {
     if (least < -enter_mm_) return least;
     s += std::max(kStepMm, 0.5 * gap);
   }
-  return least;
+  const double rod = rod_room(pose, kHorizonMm);
+  return rod < 0.0 ? std::min(rod - kHorizonMm, least) : least;
 }
 
 double TipRoom::rough_room(const Pose& pose, double least) const {
@@ -99,7 +115,9 @@ double TipRoom::rough_room(const Pose& pose, double least) const {
     if (best <= least) return best;
     s += std::max(kStepMm, 0.6 * (gap - wanted));
   }
-  return best;
+  // A rod with room lacks nothing.
+  const double rod = rod_room(pose, kEnoughMm);
+  return rod < 0.0 ? std::min(best, rod - kEnoughMm) : best;
 }
 
 }  // namespace flank::internal

@@ -28,7 +28,8 @@ class TipRoom {
   /// Whether the tip sphere alone enters no wall deeper than a pass may.
   [[nodiscard]] bool tip_is_free(const Vec3& center) const;
   [[nodiscard]] const TiltCone& held() const { return held_; }
-  /// How far the flank, and a shank as thick above it, are from walls and floor, mm, at least; < 0 inside one. Exact near zero.
+  /// How far the flank, and a shank as thick above it, are from walls and floor, mm, at least; < 0 inside one. Exact near zero. Where
+  /// the rod in the axis above them enters the wheel (axis_rod.h), as far inside.
   [[nodiscard]] double room(const Pose& pose) const { return room(pose, above_); }
   /// The same by triangles, less a gap that grows along the axis, up to `kEnoughMm`: what directions are chosen by. Ends early below
   /// `least`. A direction that is not held lacks more room than any other.
@@ -41,7 +42,9 @@ class TipRoom {
   [[nodiscard]] double radius(double s) const { return radial_.at(s < length_ ? s : length_).r; }
   const FloorChannel& channel_;
   const RadialFunction& radial_;
-  double tip_mm_, lift_mm_, enter_mm_, length_, above_;
+  /// How far the rod in the axis above the flank is from the wheel, mm, at least, at most `most`; exact below that.
+  [[nodiscard]] double rod_room(const Pose& pose, double most) const;
+  double tip_mm_, lift_mm_, enter_mm_, length_, above_, rod_mm_;
   TiltCone held_;
 };
 

@@ -1,0 +1,58 @@
+// What an earlier run has done is kept where the same program would do the same again, and nowhere else.
+#include "flank/wheel/perform.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "flank/error.h"
+#include "temporary_folder.h"
+
+namespace flank::internal {
+namespace {
+
+class Perform : public TemporaryFolder {
+ protected:
+  Perform() : TemporaryFolder("perform") {}
+  void SetUp() override {
+    TemporaryFolder::SetUp();
+    job_.folder = root_.string();
+    std::filesystem::create_directories(root_ / "ops/30-floor");
+    std::ofstream(root_ / "ops/30-floor/path.json") << "{}";
+  }
+  [[nodiscard]] WheelWork work() const { return {job_, roles_, sector_, part_, blank_, FaceTargets(part_), {}}; }
+  /// The operation after a run, and whether it was done in it.
+  [[nodiscard]] std::pair<WheelOperation, bool> run(const WheelWork& work, const std::string& decides) const {
+    bool done = false;
+    WheelOperation operation{.id = "30", .kind = "floor", .folder = ""};
+    operation = perform(work, operation, decides, [&]() -> Result {
+      done = true;
+      throw InputError("not needed here");
+    });
+    return {operation, done};
+  }
+  WheelJob job_;
+  WheelRoles roles_;
+  WheelSector sector_;
+  Part part_;
+  WheelBlank blank_;
+};
+
+TEST_F(Perform, KeepsWhatTheSameProgramHasDoneOfTheSame) {
+  WheelWork first = work();
+  auto [operation, done] = run(first, "passes");
+  ASSERT_TRUE(done);
+  operation.done = true;
+  WheelWork second = work();
+  second.finished = {{"30", operation}};
+  const auto [kept, again] = run(second, "passes");
+  EXPECT_FALSE(again);
+  EXPECT_TRUE(kept.kept);
+  EXPECT_TRUE(run(second, "other passes").second);
+  second.program = "of another build";
+  EXPECT_TRUE(run(second, "passes").second);
+}
+
+}  // namespace
+}  // namespace flank::internal
