@@ -52,6 +52,7 @@ int look_at_object(dl_phdr_info* object, std::size_t /*size*/, void* out) {
     if (segment.p_type == PT_LOAD) holds = holds || (address >= begin && address < begin + segment.p_memsz);
     // Segments of notes are padded to four bytes, those of larger ones to eight.
     if (segment.p_type == PT_NOTE && id.empty())
+      // NOLINTNEXTLINE(performance-no-int-to-ptr): the loader tells addresses as numbers
       id = id_of_notes(reinterpret_cast<const unsigned char*>(begin), segment.p_filesz, segment.p_align == 8 ? 8 : 4);
   }
   if (holds) *static_cast<std::string*>(out) = id;
