@@ -39,3 +39,4 @@
 #include "flank/vec.h"
 #include "flank/version.h"
 #include "flank/wheel.h"
+#include "flank/wheel_request.h"

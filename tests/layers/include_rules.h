@@ -17,8 +17,8 @@ namespace flank::layers {
 /// Of a room below src: more than anybody reads in an afternoon, and more than one concept.
 inline constexpr int kMostLinesInARoom = 3600;
 /// What a user reads through, and what our own command needs beside: printable, machine, inspect, example, tool_command,
-/// cad_process, sweep.
-inline constexpr int kMostFrontDoorHeaders = 38;
+/// cad_process, sweep, wheel_request.
+inline constexpr int kMostFrontDoorHeaders = 39;
 /// Of all of apps: the command is on its way out of the house. No more than there are may come back; examples have none.
 inline constexpr int kMostInternalIncludesOfApps = 22;
 

@@ -32,7 +32,7 @@ class Perform : public TemporaryFolder {
     });
     return {operation, done};
   }
-  WheelJob job_;
+  WheelRequest job_;
   WheelRoles roles_;
   WheelSector sector_;
   Part part_;

@@ -1,7 +1,6 @@
 #include "flank/pipeline/folder/resume_folder.h"
 
 #include <filesystem>
-#include <utility>
 #include <variant>
 
 #include "flank/base/sha256.h"
@@ -29,27 +28,21 @@ bool is_complete(const ResultFolder& folder) {
   return summary.is_object() && summary.value("complete", nlohmann::json()) == true;
 }
 
-/// A shank that was chosen is written into the job.
-void take_chosen_shank(const ObstacleRequest& written, ObstacleRequest& asked) {
-  if (asked.shank_length_mm || asked.holder || asked.shank == "none") return;
-  asked.shank = written.shank;
-  asked.shank_length_mm = written.shank_length_mm;
-  if (!asked.shank_radius_mm) asked.shank_radius_mm = written.shank_radius_mm;
-}
-
 /// As job.json has it, so that both can be compared. Where the tool is found or chosen the ball that it was asked to reach with is
 /// written into the job, and so is a shank that was chosen.
 PlanJob as_written(const PlanJob& job, const PlanJob& written) {
   PlanJob asked = job_from_json(job_to_json(job), "job.json");
-  const auto [ball, obstacles] =
-      std::visit([](const auto& plan) { return std::pair(plan.judge.reach_radius_mm, plan.obstacles); }, written);
-  std::visit(
-      [ball = ball, &obstacles = obstacles](auto& plan) {
-        if (!plan.judge.reach_radius_mm) plan.judge.reach_radius_mm = ball;
-        take_chosen_shank(obstacles, plan.obstacles);
-        plan.part.file.clear();  // the part is known by its bytes
-      },
-      asked);
+  const auto take = [](auto& plan, const std::optional<double>& ball, const ObstacleRequest& made) {
+    ObstacleRequest& own = plan.obstacles;
+    if (!plan.judge.reach_radius_mm) plan.judge.reach_radius_mm = ball;
+    if (!own.shank_length_mm && !own.holder && own.shank != "none") {
+      own.shank_radius_mm = own.shank_radius_mm ? own.shank_radius_mm : made.shank_radius_mm;
+      own.shank_length_mm = made.shank_length_mm;
+      own.shank = made.shank;
+    }
+    plan.part.file.clear();  // the part is known by its bytes
+  };
+  std::visit([&](auto& to, const auto& from) { take(to, from.judge.reach_radius_mm, from.obstacles); }, asked, written);
   return asked;
 }
 
