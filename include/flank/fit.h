@@ -56,6 +56,9 @@ struct RadiusBounds {
   /// mm, >= 0: a cylindrical shank above the flank bends too, as `slenderest` counts. Radius 0: that of the flank's
   /// upper end.
   double shank_length = 0.0, shank_radius = 0.0;
+  /// Whether the fit keeps that shank out of obstacles as it does the flank. It narrows a search that mostly ends with room for a shank all the
+  /// same.
+  bool shank_in_the_way = false;
 };
 
 /// What one iteration did, over samples whose footpoint is inside the target (of a SweptModel: points to be touched).

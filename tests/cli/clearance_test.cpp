@@ -49,7 +49,7 @@ TEST_F(CliClearance, RefusesBadInputBeforeAnyWork) {
   refused({"--clearance", "-1", "--shank-length", "30"}, 2, "--clearance");
   refused({"--clearance", "nan", "--shank-length", "30"}, 2, "--clearance");
   refused({"--clearance", "1", "--shank", "none"}, 2, "--shank-length");
-  refused({"--shank-radius", "4"}, 2, "--shank-length");
+  refused({"--shank-radius", "4", "--shank", "none"}, 2, "--shank-length");
   refused({"--shank-length", "0"}, 2, "--shank-length");
   refused({"--shank-length", "30", "--shank-diameter=-8"}, 2, "--shank");
   refused({"--holder", "30:10,20:10"}, 2, "z must not fall");

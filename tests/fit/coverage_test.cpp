@@ -224,6 +224,7 @@ TEST(FlankGouge, CountsTheShankThatStandsAboveTheFlank) {
   falling.direction.poles.colwise() = Vec3(std::sqrt(1.0 - 0.04), 0.0, -0.2);
   RadiusBounds bounds;
   EXPECT_EQ(flank_gouge({falling}, {&obstacles}, cylinder(5.0), bounds, 12), 0.0);
+  bounds.shank_in_the_way = true;
   bounds.shank_length = 30.0;
   for (const GougeLook look : {GougeLook::kRough, GougeLook::kQuick, GougeLook::kClose}) {
     EXPECT_NEAR(flank_gouge({falling}, {&obstacles}, cylinder(5.0), bounds, 12, look), kShankGrown * 5.0 - 3.0,

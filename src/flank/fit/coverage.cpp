@@ -96,7 +96,9 @@ struct AxisBalls {
   double end = 0.0;    ///< of the axis with the shank
 
   AxisBalls(const RadialFunction& tool, const RadiusBounds& bounds)
-      : flank(tool), shank(shank_ball(tool, bounds)), end(tool.axis_length() + bounds.shank_length) {}
+      : flank(tool), shank(shank_ball(tool, bounds)), end(tool.axis_length()) {
+    if (bounds.shank_in_the_way) end += bounds.shank_length;
+  }
 
   [[nodiscard]] double step() const { return flank.axis_length() / kGougeSteps; }
   [[nodiscard]] double radius(double s) const { return s > flank.axis_length() ? shank : flank.at(s).r; }

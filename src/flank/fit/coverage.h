@@ -23,7 +23,7 @@ namespace flank::internal {
 /// of each pose. For a rough one the depth of what is far inside is estimated.
 enum class GougeLook { kRough, kQuick, kClose };
 
-/// The deepest that flank and shank (that of the bounds) enter an obstacle, mm, >= 0, at poses + 1 times per motion and at least 60 places
+/// The deepest that flank and shank (that of the bounds, if it is in the way) enter an obstacle, mm, >= 0, at poses + 1 times per motion and at least 60 places
 /// along the flank's axis; obstacles as in FitDraft (one per motion, null: none, or none at all).
 [[nodiscard]] double flank_gouge(const std::vector<RuledMotion>& motions,
                                  const std::vector<const ObstacleField*>& obstacles, const RadialFunction& tool,

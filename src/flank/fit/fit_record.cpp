@@ -17,6 +17,7 @@ void code(StepCodec& codec, RadiusBounds& bounds) {
   for (double* value : {&bounds.smallest, &bounds.largest, &bounds.steepest, &bounds.slenderest, &bounds.neck,
                         &bounds.wheel_radius, &bounds.shank_length, &bounds.shank_radius})
     codec.number(*value);
+  code(codec, bounds.shank_in_the_way);
 }
 
 }  // namespace

@@ -94,18 +94,19 @@ std::string default_shank(const ObstacleRequest& request, bool own_body) {
 }
 
 template <class Job>
-Result with_chosen_shank(const Job& job, const Progress& asked,
-                         const std::function<Result(const Job&, const Progress&)>& plan) {
+Result with_room_for_shank(const Job& job, bool always, const ShankPlan<Job>& plan, const Progress& asked) {
   constexpr double kFirst = 0.8;  // of the progress
   const Progress progress = with_journal(asked);
-  Result found = plan(job, progress.part(0.0, kFirst));
-  const ObstacleRequest& chosen = std::get<Job>(found.job).obstacles;
-  if (job.obstacles.shank_length_mm || !chosen.shank_length_mm) return found;
+  Result found = plan(job, false, progress.part(0.0, kFirst));
+  const ObstacleRequest made = std::get<Job>(found.job).obstacles;
+  const bool chosen = made.shank_length_mm && !job.obstacles.shank_length_mm;
   const Acceptance first = found.acceptance();
-  if (found.complete && fails_by(first, Figure::kClearance)) {
+  // Where nothing at all could hold the tool there is no room for any shank.
+  const bool in_the_way = fails_by(first, Figure::kClearance) && !fails_by(first, Figure::kHold);
+  if (found.complete && made.shank_length_mm && (chosen || !always) && in_the_way) {
     Job with = job;
-    with.obstacles = chosen;
-    Result again = plan(with, progress.part(kFirst, 1.0));
+    with.obstacles = made;
+    Result again = plan(with, true, progress.part(kFirst, 1.0));
     if (!again.complete) {
       found.complete = false;
       found.journal = progress.journal;
@@ -113,15 +114,13 @@ Result with_chosen_shank(const Job& job, const Progress& asked,
       found = std::move(again);
     }
   }
-  note_chosen_shank(found.tool, std::get<Job>(found.job).obstacles, found.notes);
+  if (chosen) note_chosen_shank(found.tool, std::get<Job>(found.job).obstacles, found.notes);
   return found;
 }
 
-template Result with_chosen_shank<FitJob>(const FitJob&, const Progress&,
-                                          const std::function<Result(const FitJob&, const Progress&)>&);
-template Result with_chosen_shank<CoverJob>(const CoverJob&, const Progress&,
-                                            const std::function<Result(const CoverJob&, const Progress&)>&);
-template Result with_chosen_shank<TrochoidJob>(const TrochoidJob&, const Progress&,
-                                               const std::function<Result(const TrochoidJob&, const Progress&)>&);
+template Result with_room_for_shank<FitJob>(const FitJob&, bool, const ShankPlan<FitJob>&, const Progress&);
+template Result with_room_for_shank<CoverJob>(const CoverJob&, bool, const ShankPlan<CoverJob>&, const Progress&);
+template Result with_room_for_shank<TrochoidJob>(const TrochoidJob&, bool, const ShankPlan<TrochoidJob>&,
+                                                 const Progress&);
 
 }  // namespace flank::internal

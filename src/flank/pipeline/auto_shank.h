@@ -23,10 +23,15 @@ void choose_clear_shank(const ClearanceScene& scene, const Path& path, const Box
 void take_clear_shank(const ClearanceScene& scene, const Box3& part, double slenderest, ObstacleRequest& obstacles,
                       Result& result);
 
-/// Plans; `plan` may choose a shank for what it found. Where that comes too near, plans again with it in the way from the beginning; the
-/// better of the two. A note says the shank's figures. The journal has the steps of both.
+/// A plan of a job, with its shank in the way from the beginning or not.
 template <class Job>
-[[nodiscard]] Result with_chosen_shank(const Job& job, const Progress& progress,
-                                       const std::function<Result(const Job&, const Progress&)>& plan);
+using ShankPlan = std::function<Result(const Job& job, bool in_the_way, const Progress& progress)>;
+
+/// Plans; `plan` may choose a shank for what it found. Where the shank comes too near, plans again with it in the way from the beginning, which
+/// `plan` does with a given one already if `always`; the better of the two. A note says the figures of a chosen one. The journal has the steps
+/// of both.
+template <class Job>
+[[nodiscard]] Result with_room_for_shank(const Job& job, bool always, const ShankPlan<Job>& plan,
+                                         const Progress& progress);
 
 }  // namespace flank::internal

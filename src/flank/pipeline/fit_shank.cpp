@@ -23,20 +23,18 @@ Path sampled(const std::vector<RuledMotion>& motions, double tolerance_mm) {
   return path;
 }
 
-/// The tool that `tried` lengthened, with shank and holder. What was added to the flank counts with the shank: nobody else asks whether that is
-/// clear.
-Tool lengthened_tool(const RadialFunction& flank, const RadialFunction& tried, const ObstacleRequest& obstacles) {
+/// Whether what `tried` has beyond the flank enters nothing by more than is allowed: nobody else asks.
+bool added_is_clear(const ClearanceScene& scene, const RadialFunction& flank, const RadialFunction& tried,
+                    const Path& path) {
   constexpr int kPieces = 16;
-  Tool tool;
-  tool.radial = tried;
-  equip_tool(obstacles, tool);
   const double from = flank.axis_length(), to = tried.axis_length();
-  std::vector<Vec2> above;
-  for (int k = 0; to > from && k <= kPieces; ++k)
-    above.push_back(meridian_point(tried, from + (to - from) * k / kPieces));
-  tool.shank.insert(tool.shank.begin(), above.begin(), above.end());
+  if (!(to > from)) return true;
+  Tool tool;
   tool.radial = flank;
-  return tool;
+  for (int k = 0; k <= kPieces; ++k) tool.shank.push_back(meridian_point(tried, from + (to - from) * k / kPieces));
+  ClearanceOptions options = scene.options;
+  options.required_mm = -1.0;
+  return judge_clearance(tool, path, scene.obstacles, options).kept();
 }
 
 }  // namespace
@@ -50,8 +48,11 @@ void choose_shank(const FitJob& job, const Setup& setup, const ClearanceScene& s
 void lift_shank(const FitJob& job, const ClearanceScene& scene, FitSearch& search, std::vector<std::string>& notes) {
   if (job.tool.axis_length_mm || (!job.obstacles.shank_length_mm && !job.obstacles.holder)) return;
   const auto clear = [&](const FlankFitResult& tried) {
-    const Tool tool = lengthened_tool(search.fit.tool, tried.tool, job.obstacles);
-    return measure_clearance(scene, tool, sampled(search.motions_of(tried), *job.tolerance_mm)).kept();
+    Tool tool;
+    tool.radial = tried.tool;
+    equip_tool(job.obstacles, tool);
+    const Path path = sampled(search.motions_of(tried), *job.tolerance_mm);
+    return added_is_clear(scene, search.fit.tool, tried.tool, path) && measure_clearance(scene, tool, path).kept();
   };
   const double more = lengthen_until_clear(search.fit, std::max(1.0, job.obstacles.clearance_mm.value_or(0.0)), clear);
   if (more > 0.0)

@@ -257,13 +257,13 @@ decltype(FitDemand::is_free_line) free_line_in(const ClearanceScene& scene) {
 
 /// A search and its verdict. `read`: what is known before.
 Result search_and_judge(const Setup& setup, const ClearanceScene& scene, const ToolSpec& spec, Result read,
-                        double spare_coverage, const Progress& progress) {
+                        const FitDemand& demand, const Progress& progress) {
   FitJob job = std::get<FitJob>(read.job);
   Result result = std::move(read);
   Stopwatch watch(result);
   // What follows the search takes a share of the progress each.
   const double judged_at = job.stiffness_curve ? 0.5 : 0.9;
-  FitSearch search = search_fit(job, setup, spec, progress.part(0.0, judged_at), {spare_coverage, free_line_in(scene)});
+  FitSearch search = search_fit(job, setup, spec, progress.part(0.0, judged_at), demand);
   if (search.fit.motions.empty()) stop_here();  // nothing takes the place of an earlier result
   if (job.obstacles.shank == "auto" && !search.fit.motions.empty())
     choose_shank(job, setup, scene, search, found_tool(spec, search.fit.tool, {}), job.obstacles);
@@ -293,7 +293,7 @@ bool passes(const Result& result) {
 }
 
 /// A shank that is to be chosen is that of the motions found.
-Result plan_fit(const FitJob& request, const Progress& asked) {
+Result plan_fit(const FitJob& request, bool shank_in_the_way, const Progress& asked) {
   const Progress progress = with_journal(asked);
   check_job(request);
   Result result;
@@ -318,12 +318,13 @@ Result plan_fit(const FitJob& request, const Progress& asked) {
   stop_here();
 
   const Result read = result;
-  result = search_and_judge(setup, scene, spec, read, 0.0, progress);
+  result = search_and_judge(setup, scene, spec, read, {0.0, free_line_in(scene), shank_in_the_way}, progress);
   const double estimate = std::get<FitSummary>(result.plan).after.coverage;
   const double spare = result.complete ? spare_needed(job, result.verify, estimate) : 0.0;
   if (spare > 0.0) {
     try {
-      Result stricter = search_and_judge(setup, scene, spec, read, spare, once_more(progress));
+      Result stricter = search_and_judge(setup, scene, spec, read, {spare, free_line_in(scene), shank_in_the_way},
+                                         once_more(progress));
       if (passes(stricter)) result = std::move(stricter);
     } catch (const Stopped&) {  // what was found before is whole
     }
@@ -335,7 +336,7 @@ Result plan_fit(const FitJob& request, const Progress& asked) {
 }  // namespace
 
 Result run_fit(const FitJob& request, const Progress& asked) {
-  return with_chosen_shank<FitJob>(request, asked, plan_fit);
+  return with_room_for_shank<FitJob>(request, false, plan_fit, asked);
 }
 
 }  // namespace flank

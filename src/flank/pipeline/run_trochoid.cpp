@@ -129,9 +129,12 @@ Setup read_whole(TrochoidJob& job, std::vector<std::string>& notes) {
 }
 
 /// What the flank keeps clear of, and how wide the cavity is where a tool comes.
-void surround(const TrochoidJob& job, const Setup& setup, CavityFaces& faces) {
+void surround(const TrochoidJob& job, bool shank_in_the_way, const Setup& setup, CavityFaces& faces) {
   // As far as the thickest tool that is tried.
-  add_group_obstacles(setup, job.obstacles, bounds_of(job, faces.width).front(), faces.sides);
+  RadiusBounds bounds = radius_bounds(job.radius, job.obstacles, faces.sides.front().target->diagonal());
+  bounds.largest = bounds_of(job, faces.width).front();
+  bounds.shank_in_the_way = shank_in_the_way;
+  add_group_obstacles(setup, job.obstacles, bounds, faces.sides);
   faces.width = width_between(side_of(faces.sides[0]), side_of(faces.sides[1]));
   if (!(faces.width.narrowest_mm > 0.0))
     throw InputError("left",
@@ -209,7 +212,7 @@ void take(const CavityPlan& plan, const TrochoidJob& job, const ToolSpec& spec, 
 }
 
 /// A shank that is to be chosen is that of the path found.
-Result plan_trochoid(const TrochoidJob& request, const Progress& asked) {
+Result plan_trochoid(const TrochoidJob& request, bool shank_in_the_way, const Progress& asked) {
   const Progress progress = with_journal(asked);
   check_job(request);
   Result result;
@@ -229,10 +232,11 @@ Result plan_trochoid(const TrochoidJob& request, const Progress& asked) {
   progress.journal->begin(journal_key(job, result.part_sha256));
   CavityFaces faces = cavity_faces(job, setup);
   const ClearanceScene scene = make_clearance_scene(setup, job.obstacles, has_body(spec, job.obstacles), result.notes);
-  if (job.avoid) surround(job, setup, faces);
+  if (job.avoid) surround(job, shank_in_the_way, setup, faces);
   require_room(job, spec, faces);
   if (spec.free) faces.ball_mm = reach_in_gap(setup, kMostOfWidth * faces.width.narrowest_mm);
   SideFitOptions options = side_options(job, faces);
+  options.fit.bounds.shank_in_the_way = shank_in_the_way;
   options.up = up_from_floor(job, setup, faces);
   watch.lap("read");
 
@@ -266,7 +270,7 @@ Result plan_trochoid(const TrochoidJob& request, const Progress& asked) {
 }  // namespace
 
 Result run_trochoid(const TrochoidJob& request, const Progress& asked) {
-  return with_chosen_shank<TrochoidJob>(request, asked, plan_trochoid);
+  return with_room_for_shank<TrochoidJob>(request, false, plan_trochoid, asked);
 }
 
 }  // namespace flank

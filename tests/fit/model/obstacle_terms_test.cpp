@@ -124,6 +124,7 @@ TEST_F(FitObstacleTerms, AShankPaysForWhatItEntersAsMuchAsBallsOfTheFlank) {
   const FitState state = state_of({hanging()}, cylinder(kRadius));
   EXPECT_NEAR(cost_of(model_of(state, stage(), &obstacles), state), 0.0, 1e-18) << "without a shank nothing is entered";
   RadiusBounds bounds;
+  bounds.shank_in_the_way = true;
   bounds.shank_length = 20.0;
   for (const double radius : {0.0, 3.0}) {
     bounds.shank_radius = radius;
@@ -141,6 +142,7 @@ TEST_F(FitObstacleTerms, GradientAgreesWithDifferencesWhereAShankEnters) {
       state_of({hanging()}, RadialFunction(ToolFamily::kBarrel, kLength, Eigen::Vector3d(120.0, 6.0, 14.0)));
   state.motions.front().direction.poles.colwise() += Vec3(0.03, 0.05, 0.0);
   RadiusBounds bounds;
+  bounds.shank_in_the_way = true;
   bounds.shank_length = 11.0;
   for (const double radius : {0.0, 4.0}) {
     bounds.shank_radius = radius;
@@ -152,6 +154,7 @@ TEST_F(FitObstacleTerms, GradientAgreesWithDifferencesWhereAShankEnters) {
 
 TEST(ShankBalls, HoldTheCylinderOfTheShank) {
   RadiusBounds bounds;
+  bounds.shank_in_the_way = true;
   bounds.shank_length = 17.0;
   for (const double radius : {0.0, 1.0, 7.0}) {
     bounds.shank_radius = radius;

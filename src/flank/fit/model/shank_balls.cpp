@@ -20,7 +20,7 @@ double shank_ball(const RadialFunction& tool, const RadiusBounds& bounds) {
 
 std::vector<double> shank_places(const RadialFunction& tool, const RadiusBounds& bounds) {
   constexpr int kMost = 200;
-  if (bounds.shank_length <= 0.0) return {};
+  if (!bounds.shank_in_the_way || bounds.shank_length <= 0.0) return {};
   const double needed = std::ceil(bounds.shank_length / (kApart * shank_radius(tool, bounds)));
   const int count = needed >= 1.0 && needed <= kMost ? static_cast<int>(needed) : kMost;
   std::vector<double> places;

@@ -15,7 +15,7 @@ inline constexpr double kShankGrown = 1.0137937550497031;
 /// They stand a third of that apart at most (shank_places), and are larger by kShankGrown, so that they hold the cylinder.
 [[nodiscard]] double shank_ball(const RadialFunction& tool, const RadiusBounds& bounds);
 
-/// Places of these balls along the axis, mm from s = 0, all above the flank; none without a shank.
+/// Places of these balls along the axis, mm from s = 0, all above the flank; none without a shank in the way.
 [[nodiscard]] std::vector<double> shank_places(const RadialFunction& tool, const RadiusBounds& bounds);
 
 }  // namespace flank::internal

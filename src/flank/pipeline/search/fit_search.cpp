@@ -154,9 +154,10 @@ FitSearch begin_search(const FitJob& job, const Setup& setup, const ToolModel& t
   search.tool = tool;
   search.options = options_of(job, setup, *search.targets.front().target, tool.free());
   if (job.avoid) search.options.is_free_line = demand.is_free_line;
+  search.options.bounds.shank_in_the_way = job.avoid && demand.shank_in_the_way;
   search.options.turn_window_mm = turn_window_of(search.targets);
   if (tool.free()) search.reach_radius_mm = search.options.reach_radius_mm;
-  if (job.avoid) add_group_obstacles(setup, job.obstacles, search.options.bounds.largest, search.targets);
+  if (job.avoid) add_group_obstacles(setup, job.obstacles, search.options.bounds, search.targets);
   fit_ball_to_slot(job, search);
   return search;
 }
@@ -205,7 +206,7 @@ FitSearch search_half_turn(const FitJob& job, const Setup& setup, const WoundFac
   FitSearch search = search_from(job, half_turn_of(setup, wound_face), tool, {}, demand, progress);
   search.wound_face = wound_face;
   search.wound = make_targets(setup);
-  if (job.avoid) add_group_obstacles(setup, job.obstacles, search.options.bounds.largest, search.wound);
+  if (job.avoid) add_group_obstacles(setup, job.obstacles, search.options.bounds, search.wound);
   search.fit.notes.push_back(
       fmt::format("{} winds {:.1f} times round its axis: the motion found for half a turn was extended along the helix",
                   search.wound.front().faces, wound_face.turns()));

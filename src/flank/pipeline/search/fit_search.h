@@ -16,6 +16,7 @@ struct FitDemand {
   double spare_coverage =
       0.0;  ///< what the estimate has to promise beyond the job's demand, where a judge has seen that much less
   decltype(FlankFitOptions::is_free_line) is_free_line = {};
+  bool shank_in_the_way = false;  ///< RadiusBounds has it
 };
 
 struct FitSearch {

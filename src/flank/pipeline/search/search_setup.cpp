@@ -53,11 +53,11 @@ RadiusBounds radius_bounds(const RadiusRequest& radius, const ObstacleRequest& o
   return bounds;
 }
 
-void add_group_obstacles(const Setup& setup, const ObstacleRequest& request, double largest_radius,
+void add_group_obstacles(const Setup& setup, const ObstacleRequest& request, const RadiusBounds& bounds,
                          std::vector<TargetGroup>& targets) {
   /// The flank lies within a diameter of its target, and the walls of a channel beyond it count.
   constexpr double kReach = 2.0;
-  const double above = request.shank_length_mm.value_or(0.0) + request.shank_radius_mm.value_or(largest_radius);
+  const double shank = bounds.shank_radius > 0.0 ? bounds.shank_radius : bounds.largest;
   for (TargetGroup& group : targets) {
     ObstacleChoice choice = choose_obstacles(group.indices, setup.targets, setup.checks);
     choice.fixtures = setup.fixtures;
@@ -65,11 +65,12 @@ void add_group_obstacles(const Setup& setup, const ObstacleRequest& request, dou
     choice.tolerance_mm = setup.tolerance_mm;
     choice.allowance_mm = setup.allowance_mm;
     ObstacleDetail detail;
-    detail.faces_within_mm = std::max(kReach * largest_radius, request.shank_length_mm ? above : 0.0);
+    detail.faces_within_mm =
+        std::max(kReach * bounds.largest, bounds.shank_in_the_way ? bounds.shank_length + shank : 0.0);
     const Obstacles obstacles = make_obstacles(setup.part, *group.target, choice, detail);
     if (!obstacles.faces.empty())
       group.obstacles = std::make_unique<ObstacleField>(obstacles, *group.target,
-                                                        voter_height(obstacles, *group.target, largest_radius),
+                                                        voter_height(obstacles, *group.target, bounds.largest),
                                                         kToleranceBudget.others.fit_allowance * setup.tolerance_mm);
   }
 }

@@ -15,8 +15,9 @@ namespace flank::internal {
 [[nodiscard]] RadiusBounds radius_bounds(const RadiusRequest& radius, const ObstacleRequest& obstacles,
                                          double diagonal);
 
-/// Gives every target what flank and shank keep clear of: the check faces, the other targets and fixtures, as far as they reach.
-void add_group_obstacles(const Setup& setup, const ObstacleRequest& request, double largest_radius,
+/// Gives every target what the flank, and a shank that is in the way, keep clear of: the check faces, the other targets and fixtures, as far as
+/// they reach.
+void add_group_obstacles(const Setup& setup, const ObstacleRequest& request, const RadiusBounds& bounds,
                          std::vector<TargetGroup>& targets);
 
 }  // namespace flank::internal
