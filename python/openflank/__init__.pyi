@@ -169,7 +169,7 @@ class Face:
     def knots_v(self) -> _Doubles:
         """Knots along v, (n_v + degree + 1,). No copy."""
     def points(self, uv: npt.ArrayLike) -> _Doubles:
-        """Points of the surface at parameters N x 2: N x 3, mm; trims do not count."""
+        """Points of the surface at parameters N x 2: N x 3, mm; also outside the trims."""
     def normals(self, uv: npt.ArrayLike) -> _Doubles:
         """Unit normals at parameters N x 2: N x 3, away from the material if the face bounds a solid."""
 
@@ -394,7 +394,7 @@ class VerifyReport:
         """The figures of each face."""
     @property
     def largest_turn_deg(self) -> float | None:
-        """Largest turn of the motion within 1 % of the face's diagonal, degrees; None if it was not measured."""
+        """Largest change of the motion's direction within 1 % of the face's diagonal, degrees; None if not measured."""
     @property
     def unread_faces(self) -> list[tuple[str, str]]:
         """Faces of the file that could not be read and so were not checked, each with its reason."""
@@ -519,7 +519,7 @@ class Program:
         """Warnings."""
     @property
     def passed(self) -> bool:
-        """Whether its links neither gouge nor collide, and its rounding keeps the tolerance."""
+        """Whether its links neither gouge nor collide, and the rounding of its numbers keeps the tolerance."""
     @property
     def reasons(self) -> list[tuple[str, str]]:
         """Why it does not pass: pairs (figure, sentence)."""
@@ -709,9 +709,9 @@ def design(
     ignore_faces
         Faces that the tool may cut into; they are not checked. S2-S5 names all faces of solids 2 to 5.
     shank
-        auto: a shank as thick as the flank's upper end, or the standard diameter just below it, long
-        enough to reach out of the part; none: no shank; given: that of shank_length_mm or of the tool
-        (must be given, auto or none).
+        given: that of shank_length_mm or of the tool, and where there is none as auto; auto: a shank
+        that reaches out of the part, as thick as the flank's upper end or thinner, so that it is clear;
+        none: no shank (must be given, auto or none).
     shank_length_mm
         Length of a cylindrical shank above the flank [mm] (expected a length > 0 mm).
     shank_radius_mm
@@ -891,8 +891,9 @@ def fit(
         Smallest radius of curvature of the paths of tip and holder end that meets the request. Default:
         any [mm] (expected a radius > 0 mm).
     turn_max
-        Largest turn of the motion within 1 % of the face's diagonal, degrees. A sharper turn is a kink
-        and does not meet the request. 180: any (expected an angle above 0 and at most 180 degrees).
+        Largest change of the motion's direction over 1 % of the face's diagonal, degrees. A larger one
+        is a kink and does not meet the request. 180: any (expected an angle above 0 and at most 180
+        degrees).
     coverage
         Share of the accessible area that must be within the tolerance (expected a share above 0 and at
         most 1).
@@ -914,9 +915,9 @@ def fit(
     ignore_faces
         Faces that the tool may cut into; they are not checked. S2-S5 names all faces of solids 2 to 5.
     shank
-        auto: a shank as thick as the flank's upper end, or the standard diameter just below it, long
-        enough to reach out of the part; none: no shank; given: that of shank_length_mm or of the tool
-        (must be given, auto or none).
+        given: that of shank_length_mm or of the tool, and where there is none as auto; auto: a shank
+        that reaches out of the part, as thick as the flank's upper end or thinner, so that it is clear;
+        none: no shank (must be given, auto or none).
     shank_length_mm
         Length of a cylindrical shank above the flank [mm] (expected a length > 0 mm).
     shank_radius_mm
@@ -1021,8 +1022,9 @@ def cover(
         climb or conventional milling, in every pass; the spindle turns clockwise seen from the holder
         (must be climb or conventional).
     turn_max
-        Largest turn of the motion within 1 % of the face's diagonal, degrees. A sharper turn is a kink
-        and does not meet the request. 180: any (expected an angle above 0 and at most 180 degrees).
+        Largest change of the motion's direction over 1 % of the face's diagonal, degrees. A larger one
+        is a kink and does not meet the request. 180: any (expected an angle above 0 and at most 180
+        degrees).
     coverage
         Share of the accessible area that must be within the tolerance (expected a share above 0 and at
         most 1).
@@ -1055,9 +1057,9 @@ def cover(
     ignore_faces
         Faces that the tool may cut into; they are not checked. S2-S5 names all faces of solids 2 to 5.
     shank
-        auto: a shank as thick as the flank's upper end, or the standard diameter just below it, long
-        enough to reach out of the part; none: no shank; given: that of shank_length_mm or of the tool
-        (must be given, auto or none).
+        given: that of shank_length_mm or of the tool, and where there is none as auto; auto: a shank
+        that reaches out of the part, as thick as the flank's upper end or thinner, so that it is clear;
+        none: no shank (must be given, auto or none).
     shank_length_mm
         Length of a cylindrical shank above the flank [mm] (expected a length > 0 mm).
     shank_radius_mm
@@ -1209,9 +1211,9 @@ def trochoid(
     ignore_faces
         Faces that the tool may cut into; they are not checked. S2-S5 names all faces of solids 2 to 5.
     shank
-        auto: a shank as thick as the flank's upper end, or the standard diameter just below it, long
-        enough to reach out of the part; none: no shank; given: that of shank_length_mm or of the tool
-        (must be given, auto or none).
+        given: that of shank_length_mm or of the tool, and where there is none as auto; auto: a shank
+        that reaches out of the part, as thick as the flank's upper end or thinner, so that it is clear;
+        none: no shank (must be given, auto or none).
     shank_length_mm
         Length of a cylindrical shank above the flank [mm] (expected a length > 0 mm).
     shank_radius_mm
@@ -1316,9 +1318,9 @@ def verify(
     ignore_faces
         Faces that the tool may cut into; they are not checked. S2-S5 names all faces of solids 2 to 5.
     shank
-        auto: a shank as thick as the flank's upper end, or the standard diameter just below it, long
-        enough to reach out of the part; none: no shank; given: that of shank_length_mm or of the tool
-        (must be given, auto or none).
+        given: that of shank_length_mm or of the tool, and where there is none as auto; auto: a shank
+        that reaches out of the part, as thick as the flank's upper end or thinner, so that it is clear;
+        none: no shank (must be given, auto or none).
     shank_length_mm
         Length of a cylindrical shank above the flank [mm] (expected a length > 0 mm).
     shank_radius_mm
