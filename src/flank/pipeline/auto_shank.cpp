@@ -48,8 +48,10 @@ Tool with_shank(const ObstacleRequest& obstacles, Tool flank) {
 /// The radius at which the chosen shank is clear, by as much thinner as it comes too near.
 std::optional<double> clear_radius(const ClearanceScene& scene, const Path& path, double slenderest, const Tool& flank,
                                    double least_mm, ObstacleRequest chosen) {
-  constexpr int kMost = 5;          // times: the nearest place changes
-  constexpr double kWhole = 100.0;  // radii to a hundredth of a millimetre
+  constexpr int kMost = 5;           // times: the nearest place changes
+  constexpr double kWhole = 100.0;   // radii to a hundredth of a millimetre
+  constexpr double kThinnest = 0.1;  // of the first radius: thinner ones hold nothing (judge_hold)
+  const double thick = with_shank(chosen, flank).shank.back().y();
   for (int k = 0; k < kMost; ++k) {
     const Tool tool = with_shank(chosen, flank);
     if (!(stiffness(tool).slenderness <= slenderest)) return std::nullopt;
@@ -58,7 +60,7 @@ std::optional<double> clear_radius(const ClearanceScene& scene, const Path& path
     const double radius = tool.shank.back().y();
     if (*missing <= 0.0) return radius;
     chosen.shank_radius_mm = std::floor(kWhole * (radius - *missing)) / kWhole;
-    if (!(*chosen.shank_radius_mm > 0.0)) return std::nullopt;
+    if (!(*chosen.shank_radius_mm > kThinnest * thick)) return std::nullopt;
   }
   return std::nullopt;
 }

@@ -15,7 +15,7 @@ namespace flank::internal {
 
 /// A shank for a path that was planned without one, into the request: as thick as the flank ends, or the standard diameter just below it, and
 /// out of the part along all of the path. Where that comes too near something, the thickest that does not, if flank and shank stay as stiff as
-/// `slenderest` asks and the request leaves its thickness open. `flank`: the tool without it.
+/// `slenderest` asks (1e300: a given tool, whose stiffness nobody has bound) and the request leaves its thickness open. `flank`: the tool without it.
 void choose_clear_shank(const ClearanceScene& scene, const Path& path, const Box3& part, double slenderest,
                         const Tool& flank, ObstacleRequest& obstacles);
 

@@ -42,7 +42,8 @@ bool added_is_clear(const ClearanceScene& scene, const RadialFunction& flank, co
 void choose_shank(const FitJob& job, const Setup& setup, const ClearanceScene& scene, const FitSearch& search,
                   const Tool& flank, ObstacleRequest& obstacles) {
   const Path path = sampled(search.motions_of(search.fit), search.options.tolerance_mm);
-  choose_clear_shank(scene, path, setup.part.box, job.radius.slenderness_max, flank, obstacles);
+  const double slenderest = search.tool.free() ? job.radius.slenderness_max : 1e300;
+  choose_clear_shank(scene, path, setup.part.box, slenderest, flank, obstacles);
 }
 
 void lift_shank(const FitJob& job, const ClearanceScene& scene, FitSearch& search, std::vector<std::string>& notes) {

@@ -140,8 +140,7 @@ Result plan_cover(const CoverJob& request, bool /*shank_in_the_way*/, const Prog
   const bool own = request.obstacles.shank != "auto" && has_body(result.tool);  // of the catalogue
   if (own) std::get<CoverJob>(result.job).obstacles.shank = "given";
   if (job.obstacles.shank == "auto" && !own && !result.path.strips.empty())
-    take_clear_shank(scene, setup.part.box, RadiusRequest{}.slenderness_max, std::get<CoverJob>(result.job).obstacles,
-                     result);
+    take_clear_shank(scene, setup.part.box, 1e300, std::get<CoverJob>(result.job).obstacles, result);
   result.complete = !progress.stop();
   progress.step("verify", 0.9);
   judge_result(setup, scene, std::move(surfaces), result, watch);

@@ -200,7 +200,8 @@ void take(const CavityPlan& plan, const TrochoidJob& job, const ToolSpec& spec, 
   if (!legitimacy.legitimate) result.notes.push_back("the tool's profile is not valid: " + legitimacy.reason);
   result.path = plan.program.path;
   if (job.obstacles.shank == "auto" && !result.path.strips.empty())
-    take_clear_shank(scene, part, job.radius.slenderness_max, std::get<TrochoidJob>(result.job).obstacles, result);
+    take_clear_shank(scene, part, spec.free ? job.radius.slenderness_max : 1e300,
+                     std::get<TrochoidJob>(result.job).obstacles, result);
   result.chord_bound_mm = plan.program.chord_bound_mm;
   result.plan = summary_of(job, plan.sides, plan.program, faces.width.narrowest_mm);
   if (plan.tools > 1)
