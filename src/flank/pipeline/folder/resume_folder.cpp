@@ -28,27 +28,26 @@ bool is_complete(const ResultFolder& folder) {
   return summary.is_object() && summary.value("complete", nlohmann::json()) == true;
 }
 
-/// As job.json has it, so that both can be compared. Where the tool is found or chosen the ball that it was asked to reach with is
-/// written into the job, and so is a shank that was chosen.
+/// As job.json has it, to be compared: with the ball to reach with and the shank that the run has chosen and written there.
 PlanJob as_written(const PlanJob& job, const PlanJob& written) {
   PlanJob asked = job_from_json(job_to_json(job), "job.json");
-  const auto take = [](auto& plan, const std::optional<double>& ball, const ObstacleRequest& made) {
-    ObstacleRequest& own = plan.obstacles;
-    if (!plan.judge.reach_radius_mm) plan.judge.reach_radius_mm = ball;
-    if (!own.shank_length_mm && !own.holder && own.shank != "none") {
-      own.shank_radius_mm = own.shank_radius_mm ? own.shank_radius_mm : made.shank_radius_mm;
-      own.shank_length_mm = made.shank_length_mm;
-      own.shank = made.shank;
-    }
-    plan.part.file.clear();  // the part is known by its bytes
-  };
-  std::visit([&](auto& to, const auto& from) { take(to, from.judge.reach_radius_mm, from.obstacles); }, asked, written);
+  std::visit(
+      [](auto& plan, const auto& made) {
+        ObstacleRequest& own = plan.obstacles;
+        if (!plan.judge.reach_radius_mm) plan.judge.reach_radius_mm = made.judge.reach_radius_mm;
+        if (!own.shank_length_mm && !own.holder && own.shank != "none") {
+          own.shank_radius_mm = own.shank_radius_mm ? own.shank_radius_mm : made.obstacles.shank_radius_mm;
+          own.shank_length_mm = made.obstacles.shank_length_mm;
+          own.shank = made.obstacles.shank;
+        }
+        plan.part.file.clear();  // the part is known by its bytes
+      },
+      asked, written);
   return asked;
 }
 
 std::string part_hash(const PlanJob& job) {
-  const std::string file = std::visit([](const auto& plan) { return plan.part.file; }, job);
-  return sha256(read_file(file));
+  return sha256(read_file(std::visit([](const auto& plan) { return plan.part.file; }, job)));
 }
 
 constexpr const char* kToGoOn =
