@@ -74,7 +74,7 @@ function clearanceRows(verify) {
   return (verify.clearance ?? []).map((f) => {
     const enters = f.clearance_mm < 0;
     return { key: `clearance.${f.body}.${f.against}`, figure: 'clearance', name: `${capital(f.body)} to ${AGAINST[f.against] ?? f.against}`, value: f.clearance_mm,
-      text: format.length(f.clearance_mm), wanted: `≥ ${format.length(f.required_mm, 3)}`,
+      text: format.error(f.clearance_mm), wanted: `≥ ${format.error(f.required_mm)}`,
       state: f.kept ? 'pass' : 'fail',
       hint: `${enters ? 'collides with ' : 'nearest: '}${f.obstacle}${f.point ? ` at ${at(f.point)}` : ''}${f.strip ? `, pass ${f.strip}, CL point ${format.plain(f.t + 1, 4)}` : ''}; accurate to ±${format.error(f.bound_mm)}` };
   });
