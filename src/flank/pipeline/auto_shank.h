@@ -1,4 +1,4 @@
-/// A shank that nobody has given: as thick as the flank ends, and long enough to reach out of the part.
+/// A shank that nobody has given: chosen for the path that was found, and in the way of a second plan where it has no room.
 #pragma once
 
 #include <functional>
