@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include "flank/vec.h"
@@ -65,6 +66,9 @@ struct CoverOptions {
   /// mm, > 0: the largest |f| that counts as finished, and the deepest that the tool may enter the target or another
   /// face. Time grows as it falls: about threefold from 0.05 to 0.02 mm on a blade.
   double tolerance_mm = 0.01;
+  /// Within `turn_window_mm` of the way of both ends of the axis a strip turns by no more than this; <= 0: by any angle. Else it is cut there.
+  double most_turn_rad = 15.0 * std::numbers::pi / 180.0;
+  double turn_window_mm = 0.0;            ///< > 0; 0: sqrt(2) percent of the target's diagonal
   std::vector<LineSeed> seeds;            ///< where strips of kGrow begin; empty: as the next five options say
   SeedPlaces places = SeedPlaces::kGrid;  ///< neither is ahead; kShape suits a target that bends strongly in few places
   SeedDirections directions = SeedDirections::kAdmissible;  ///< kEven: twice as many seeds for the same coverage

@@ -5,6 +5,8 @@
 
 #include "cover/cover_targets.h"
 #include "flank/cover/tiles/tile.h"
+#include "flank/path/turning.h"
+#include "flank/strip/kinks.h"
 #include "flank/threads.h"
 #include "sanitized.h"
 
@@ -30,6 +32,9 @@ TEST(Cover, TwistedBladeWithACylinder) {
   EXPECT_LE(result.overlap, 0.6);
   EXPECT_LE(result.overcut_mm, tolerance);
   EXPECT_EQ(result.reachable, 1.0);
+  const CoverOptions options = options_for(tolerance);
+  for (const RuledMotion& motion : result.motions)
+    EXPECT_FALSE(has_kink(motion, {options.most_turn_rad, turn_window(target->diagonal())}, tolerance));
 }
 
 TEST(Cover, SurfaceLongerThanTheTool) {
@@ -70,6 +75,25 @@ TEST(Cover, KeepsClearOfAWall) {
   EXPECT_NEAR(result.reachable, 26.0 / 30.0, 0.02);
   EXPECT_GE(result.coverage, 0.97);
   const PoseChecker checker(tool, obstacles.meshes);
+  for (const RuledMotion& motion : result.motions)
+    for (int i = 0; i <= 400; ++i) EXPECT_TRUE(checker.is_free(motion.pose(i / 400.0), -0.01));
+}
+
+TEST(Cover, ACylinderIsHeldWhereNothingIsInTheWay) {
+  if (kSanitized) GTEST_SKIP() << "minutes under a sanitizer; its parts are tested there by themselves";
+  // Two walls in a corner, far from the flank: whichever way it lies, one of its ends points at a wall, and the other one is free.
+  const auto target = testing::flat_target(0.0, 50.0, 0.0, 30.0);
+  Obstacles obstacles = testing::wall_at(60.0);
+  const Obstacles other =
+      testing::triangle_obstacle(Vec3(80.0, -90.0, -1.0), Vec3(80.0, 120.0, -1.0), Vec3(80.0, 15.0, 120.0));
+  obstacles.meshes.push_back(other.meshes.front());
+  const Tool tool = testing::cylinder(4.0, 16.0);
+  const CoverResult result = cover(*target, tool, obstacles, options_for(0.01), {});
+  ASSERT_EQ(result.status, CoverStatus::kCovered) << result.message;
+  EXPECT_GE(result.coverage, 0.97);
+  Tool held = tool;
+  held.shank = {{16.0, kRodShare * 4.0}, {300.0, kRodShare * 4.0}};
+  const PoseChecker checker(held, obstacles.meshes);
   for (const RuledMotion& motion : result.motions)
     for (int i = 0; i <= 400; ++i) EXPECT_TRUE(checker.is_free(motion.pose(i / 400.0), -0.01));
 }

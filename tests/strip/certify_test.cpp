@@ -5,9 +5,11 @@
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include "cover/cover_targets.h"
 #include "flank/base/tolerance_budget.h"
+#include "flank/path/turning.h"
 
 namespace flank::internal {
 namespace {
@@ -58,6 +60,38 @@ class Certify : public ::testing::Test {
 };
 
 double bump(double x, double middle, double width) { return std::exp(-std::pow((x - middle) / width, 2)); }
+
+TEST_F(Certify, AKinkIsCutOutAndBothLegsStay) {
+  constexpr double kLimit = 15.0 * std::numbers::pi / 180.0;
+  const TurnLimit limit{kLimit, turn_window(target_->diagonal())};
+  std::vector<Pose> poses;
+  std::vector<double> t;
+  for (int i = 0; i <= 600; ++i) {
+    t.push_back(i / 600.0);
+    const double x = 60.0 * t.back();
+    poses.push_back({Vec3(x, 4.0 + 0.7 * std::abs(x - 24.0), kRadius), Vec3::UnitY()});
+  }
+  const CoverStrip bent = measure_strip(samples_, fit_motion(poses, t, kLength, 100), radial_, fitter_);
+  ASSERT_TRUE(has_kink(bent.motion, limit, kTolerance));
+  EXPECT_FALSE(has_kink(bent.motion, {0.0, limit.window_mm}, kTolerance)) << "no limit";
+  const std::vector<CoverStrip> pieces = cut_at_kinks(samples_, {}, bent, radial_, fitter_, limit);
+  ASSERT_EQ(pieces.size(), 2U);
+  double area = 0.0;
+  for (const CoverStrip& piece : pieces) {
+    EXPECT_FALSE(has_kink(piece.motion, limit, kTolerance));
+    EXPECT_TRUE(is_certified({}, piece, kTolerance));
+    area += piece.area;
+  }
+  EXPECT_GE(area, 0.95 * bent.area);
+}
+
+TEST_F(Certify, AStripWithoutKinksIsNotCut) {
+  const CoverStrip straight = strip([](double) { return 0.0; });
+  const std::vector<CoverStrip> pieces =
+      cut_at_kinks(samples_, {}, straight, radial_, fitter_, {0.01, turn_window(target_->diagonal())});
+  ASSERT_EQ(pieces.size(), 1U);
+  expect_same(pieces.front().motion, straight.motion);
+}
 
 TEST_F(Certify, AllowsItsShareOfTheToleranceAndNoMore) {
   const double limit = kToleranceBudget.target.certified * kTolerance;

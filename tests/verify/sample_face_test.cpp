@@ -72,6 +72,16 @@ TEST(SampleFace, RespectsOuterLoopAndHole) {
   }
 }
 
+TEST(SampleFace, TheSizeIsThatOfTheFaceNotOfItsParameters) {
+  // Sheared, so that a band from one corner of the parameters to another one is low: 10 mm wide, 3 mm high.
+  Face face = test::plane_face("F1", 10.0, 10.0);
+  for (Vec3& pole : face.surface.poles) pole.z() += pole.x();
+  face.loops = {test::polygon({{0.0, 0.9}, {0.0, 1.0}, {0.1, 1.0}, {1.0, 0.1}, {1.0, 0.0}, {0.9, 0.0}})};
+  const double size = verify::make_sampler(face, 0.1, true, 1 << 16)->size_mm();
+  EXPECT_GE(size, 10.0);
+  EXPECT_LE(size, std::hypot(10.0, 3.0));
+}
+
 TEST(SampleFace, PartsOfCellsTileThem) {
   Face face = test::quarter_cylinder("F1", 5.0, 8.0);
   face.loops = {test::circle({0.5, 0.5}, 0.4)};

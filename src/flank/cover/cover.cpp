@@ -90,6 +90,19 @@ double keep_reachable(CoverSamples& samples, const PoseGuard& guard) {
   return share;
 }
 
+/// The tool as it is planned with: where nothing is said to stand above its flank, a rod in its axis to beyond everything, somewhat thicker
+/// than the one that the judge asks for.
+Tool held_tool(const Tool& tool, const Target& target, const Obstacles& obstacles) {
+  constexpr double kThicker = 1.5;
+  Tool held = tool;
+  if (!tool.shank.empty() || !tool.holder.empty() || obstacles.meshes.empty()) return held;
+  Box3 box = target.box();
+  for (const ObstacleMesh& mesh : obstacles.meshes) box.add(mesh.mesh.box());
+  const double length = tool.radial.axis_length(), radius = kThicker * kRodShare * tool.radial.at(length).r;
+  held.shank = {{length, radius}, {length + box.diagonal(), radius}};
+  return held;
+}
+
 /// How much more the strips cover one by one than together, as a share of the latter.
 double overlap_of(const CoverSamples& samples, const std::vector<CoverStrip>& strips) {
   double sum = 0.0;
@@ -109,6 +122,19 @@ std::vector<CoverStrip> certify_all(const TileScene& dense, std::vector<CoverStr
   return strips;
 }
 
+/// The pieces of all strips between their kinks.
+std::vector<CoverStrip> between_kinks(const TileScene& dense, const std::vector<CoverStrip>& strips) {
+  std::vector<std::vector<CoverStrip>> pieces(strips.size());
+  parallel_for(strips.size(), [&](std::size_t k) {
+    LineFitter fitter(dense.target, dense.radial, line_options(dense));
+    pieces[k] = cut_at_kinks(dense.samples, dense.guard, strips[k], dense.radial, fitter, turn_limit(dense));
+  });
+  std::vector<CoverStrip> steady;
+  for (std::vector<CoverStrip>& of_strip : pieces)
+    for (CoverStrip& piece : of_strip) steady.push_back(std::move(piece));
+  return steady;
+}
+
 /// The worth of a set: covered share less a price for each strip, by which all choices here are made.
 double value_of(const TileScene& scene, const std::vector<CoverStrip>& strips) {
   return covered_share(scene.samples, strips) - scene.options.strip_price * static_cast<double>(strips.size());
@@ -121,7 +147,7 @@ std::vector<CoverStrip> smoothed(const TileScene& coarse, const TileScene& dense
   // Certified before they are compared: a strip's share counts only as far as it may be cut.
   strips =
       kept_strips(progress, "certify", dense.samples, [&] { return certify_all(dense, remeasured(dense, strips)); });
-  std::vector<CoverStrip> best = strips;
+  std::vector<CoverStrip> best = between_kinks(dense, strips);
   for (int round = 0; round < kSmoothRounds && dense.options.smooth && !progress.stop(); ++round) {
     progress.step("smooth", kSmoothAt + kSmoothRoundStep * round);
     strips = kept_strips(progress, "smooth", dense.samples,
@@ -168,7 +194,7 @@ std::vector<CoverStrip> drop_redundant(const TileScene& dense, std::vector<Cover
   return strips;
 }
 
-/// The last and finest check of each strip.
+/// The last and finest check of each strip, which is cut where it has a kink.
 std::vector<CoverStrip> certify_finely(const TileScene& dense, std::vector<CoverStrip> strips) {
   if (stopping()) return strips;
   parallel_for(strips.size(), [&](std::size_t k) {
@@ -176,7 +202,7 @@ std::vector<CoverStrip> certify_finely(const TileScene& dense, std::vector<Cover
     strips[k] = cut_finely(dense.samples, dense.guard, std::move(strips[k]), dense.radial, fitter);
   });
   std::erase_if(strips, [](const CoverStrip& strip) { return strip.cells.empty(); });
-  return pruned(dense, std::move(strips));
+  return pruned(dense, between_kinks(dense, strips));
 }
 
 /// Fills the result from the strips that are left.
@@ -304,7 +330,8 @@ CoverResult search_strips(const Target& target, const Tool& tool, const Obstacle
   progress.step("samples", kSamplesAt);
   // How deep the tool may enter other faces: less than the tolerance in a certificate, and less still while strips
   // grow (tolerance_budget.h).
-  const PoseGuard guard(tool, obstacles, -kToleranceBudget.others.certified * options.tolerance_mm);
+  const PoseGuard guard(held_tool(tool, target, obstacles), obstacles,
+                        -kToleranceBudget.others.certified * options.tolerance_mm);
   const PoseGuard grow_guard = guard.with_floor(-kToleranceBudget.others.growing * options.tolerance_mm);
   CoverSamples samples = cover_samples(target, options.sample_share * std::sqrt(target.area()));
   result.reachable = keep_reachable(samples, guard);

@@ -24,7 +24,7 @@ void code(StepCodec& codec, CoverOptions& options) {
   for (int* value : {&options.seed_places, &options.seed_directions, &options.seed_spheres, &options.most_strips})
     code(codec, *value);
   for (double* value : {&options.tolerance_mm, &options.strip_price, &options.sample_share, &options.dense_share,
-                        &options.enough_coverage})
+                        &options.enough_coverage, &options.most_turn_rad, &options.turn_window_mm})
     codec.number(*value);
   code(codec, options.smooth);
 }

@@ -73,7 +73,7 @@ Turning sharpest_turn(std::span<const Pose> poses, double axis_length, double wi
       const double cosine = chords[i].direction.dot(chords[k].direction);
       if (cosine >= least) continue;
       least = cosine;
-      sharpest = {angle_between(chords[i].direction, chords[k].direction), 0, chords[i].pose};
+      sharpest = {angle_between(chords[i].direction, chords[k].direction), 0, chords[i].pose, chords[k].pose};
     }
   }
   return sharpest;

@@ -13,7 +13,8 @@ inline constexpr double kTurnStretch = 0.01;
 /// Of sharpest_turn().
 struct Turning {
   double angle_rad = 0.0;
-  std::size_t strip = 0, pose = 0;  ///< 0-based: where it ends
+  std::size_t strip = 0, pose = 0;  ///< 0-based: before which it ends
+  std::size_t from_pose = 0;        ///< after which it begins
 };
 
 /// The largest angle between two directions of a motion that are at most `window_mm` (> 0) of its way apart, each strip for itself. The

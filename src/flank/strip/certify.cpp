@@ -8,13 +8,6 @@
 #include "flank/base/tolerance_budget.h"
 
 namespace flank::internal {
-namespace {
-
-/// Share of a motion's parameter range: what is left of a strip after cutting must be at least this long, else it is
-/// dropped. A shorter one is hardly worth the moves to and from it.
-constexpr double kShortestStretch = 0.1;
-
-}  // namespace
 
 bool is_certified(const PoseGuard& guard, const CoverStrip& strip, double tolerance_mm) {
   if (strip.cells.empty() || strip.overcut_mm > kToleranceBudget.target.certified * tolerance_mm) return false;
@@ -151,6 +144,34 @@ CoverStrip cut_to_certified(const CoverSamples& samples, const PoseGuard& guard,
     strip = measure_strip(samples, part_of_motion(strip.motion, t0, t1), radial, fitter);
   }
   return is_certified(guard, strip, tolerance) ? strip : CoverStrip{};
+}
+
+std::vector<CoverStrip> cut_at_kinks(const CoverSamples& samples, const PoseGuard& guard, CoverStrip strip,
+                                     const RadialFunction& radial, LineFitter& fitter, const TurnLimit& limit) {
+  constexpr int kTries = 3;  ///< a stretch is a new approximation, which may turn once more
+  const double tolerance = fitter.options().tolerance_mm;
+  std::vector<CoverStrip> pieces(1, std::move(strip));
+  for (int k = 0; k < kTries; ++k) {
+    std::vector<CoverStrip> next;
+    bool any = false;
+    for (CoverStrip& piece : pieces) {
+      const std::vector<TimeRange> stretches = stretches_between_kinks(piece.motion, limit, tolerance);
+      if (stretches.size() == 1 && stretches.front().first == 0.0 && stretches.front().last == 1.0) {
+        next.push_back(std::move(piece));
+        continue;
+      }
+      any = true;
+      for (const TimeRange& stretch : stretches) {
+        const RuledMotion part = part_of_motion(piece.motion, stretch.first, stretch.last);
+        CoverStrip cut = cut_to_certified(samples, guard, measure_strip(samples, part, radial, fitter), radial, fitter);
+        if (!cut.cells.empty()) next.push_back(std::move(cut));
+      }
+    }
+    pieces = std::move(next);
+    if (!any) return pieces;
+  }
+  std::erase_if(pieces, [&](const CoverStrip& piece) { return has_kink(piece.motion, limit, tolerance); });
+  return pieces;
 }
 
 namespace {

@@ -6,7 +6,10 @@
 /// calling thread, must belong to the same target and tool, and carries the tolerance (fitter.options().tolerance_mm).
 #pragma once
 
+#include <vector>
+
 #include "flank/obstacle/pose_guard.h"
+#include "flank/strip/kinks.h"
 #include "flank/strip/strip_measure.h"
 
 namespace flank::internal {
@@ -26,6 +29,12 @@ namespace flank::internal {
 /// without cells: then less than a tenth of the strip passed, or three cuts were not enough.
 [[nodiscard]] CoverStrip cut_to_certified(const CoverSamples& samples, const PoseGuard& guard, CoverStrip strip,
                                           const RadialFunction& radial, LineFitter& fitter);
+
+/// The strip without its kinks: its stretches between them, each certified, in their order; as it is if it has none. Empty if nothing of it
+/// is certified.
+[[nodiscard]] std::vector<CoverStrip> cut_at_kinks(const CoverSamples& samples, const PoseGuard& guard,
+                                                   CoverStrip strip, const RadialFunction& radial, LineFitter& fitter,
+                                                   const TurnLimit& limit);
 
 /// The last look. Beyond the last points of the target nothing holds the rails between two steps of the certificate, so
 /// each strip is checked again at a thousand steps. What is too deep, or in another face, is lifted, and cut off if

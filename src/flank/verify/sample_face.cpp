@@ -203,11 +203,25 @@ class FaceSampler final : public Sampler {
   [[nodiscard]] double count() const override {
     return static_cast<double>(us_.size() - 1) * static_cast<double>(vs_.size() - 1);
   }
+  /// Of a box about the cells whose middle is inside the trim: the rectangle of the parameters may be much larger.
   [[nodiscard]] double size_mm() const override {
-    Box3 box;
-    for (std::size_t j = 0; j < vs_.size(); j += step(vs_.size()))
-      for (std::size_t i = 0; i < us_.size(); i += step(us_.size())) box.add(face_.surface.value(us_[i], vs_[j]));
-    return box.diagonal();
+    const std::size_t step_u = step(us_.size()), step_v = step(vs_.size());
+    Box3 inside, all;
+    for (std::size_t j = 0; j + 1 < vs_.size(); j += step_v) {
+      const double v0 = vs_[j], v1 = vs_[std::min(j + step_v, vs_.size() - 1)];
+      const std::vector<double> row = trim_->crossings(0.5 * (v0 + v1));
+      for (std::size_t i = 0; i + 1 < us_.size(); i += step_u) {
+        const double u0 = us_[i], u1 = us_[std::min(i + step_u, us_.size() - 1)];
+        const bool in = trim_->everything() || trim_->inside(row, 0.5 * (u0 + u1));
+        for (const double v : {v0, v1})
+          for (const double u : {u0, u1}) {
+            const Vec3 p = face_.surface.value(u, v);
+            all.add(p);
+            if (in) inside.add(p);
+          }
+      }
+    }
+    return inside.empty() ? all.diagonal() : inside.diagonal();
   }
 
   [[nodiscard]] FaceSamples tile(std::size_t k) const override {

@@ -9,47 +9,25 @@
 #include "flank/base/tolerance_budget.h"
 #include "flank/envelope/swept_estimate.h"
 #include "flank/fit/model/levenberg_marquardt.h"
-#include "flank/fit/swept_polish.h"
+#include "flank/fit/swept_pass.h"
 #include "flank/strip/certify.h"
 
 namespace flank::internal {
 namespace {
 
-/// One pass of the fit. The values below are settings that work on the faces of docs/algorithms/cover.md; none is
-/// derived.
-struct Pass {
-  /// Share of the tolerance. Residuals below it count for nothing, so the fit spends its freedom on what is near the
-  /// tolerance or beyond it. The rest of the tolerance is room for what lies between the points.
-  double dead_zone;
-  double fairness;        ///< FitStage::fairness: price of rails that bend
-  double anchor;          ///< FitStage::transversal_anchor: price of drift along the strip
-  double overcut_weight;  ///< factor on points with f < 0: undercut costs cells, overcut costs the certificate
-  int iterations;         ///< most steps of Levenberg-Marquardt
-  int points_per_side;    ///< of the target: their spacing is sqrt(area) / points_per_side
-};
-constexpr double kDeadZone = kToleranceBudget.fit.dead_zone;
-/// First stiff and on few points, to straighten what was grown step by step; then with rails a hundred times softer and
-/// on more points. The points of the face are fixed, so a motion gains nothing by shrinking (fit/swept_model.h): the
-/// anchor only removes drift that changes no envelope, and the second pass hardly needs it.
-constexpr std::array<Pass, 2> kPasses = {{{.dead_zone = kDeadZone,
-                                           .fairness = 1e-4,
-                                           .anchor = 1e-3,
-                                           .overcut_weight = 4.0,
-                                           .iterations = 8,
-                                           .points_per_side = 25},
-                                          {.dead_zone = kDeadZone,
-                                           .fairness = 1e-6,
-                                           .anchor = 1e-7,
-                                           .overcut_weight = 10.0,
-                                           .iterations = 12,
-                                           .points_per_side = 32}}};
+/// First stiff and on few points, to straighten what was grown step by step; then with softer and softer rails and on more points: rails that
+/// are soft at once wave where nothing holds them. The points of the face are fixed, so a motion gains nothing by shrinking
+/// (fit/model/swept_model.h): the anchor only removes drift that changes no envelope, and later passes hardly need it.
+constexpr std::array<SweptPass, 3> kPasses = {
+    {{.fairness = kFair, .anchor = 1e-3, .iterations = 8, .points_per_side = 25},
+     {.fairness = kYielding, .iterations = 12, .points_per_side = 32, .firmness = 2.5},
+     {.iterations = 12, .points_per_side = 32, .firmness = 2.5}}};
 /// After a failed certificate: overcut counts above all, and a stronger anchor keeps the strip in its place meanwhile.
-constexpr Pass kLimitPass = {.dead_zone = kDeadZone,
-                             .fairness = 1e-6,
-                             .anchor = 1e-5,
-                             .overcut_weight = 50.0,
-                             .iterations = 6,
-                             .points_per_side = 32};
+constexpr SweptPass kLimitPass = {
+    .fairness = kYielding, .anchor = 1e-5, .iterations = 6, .points_per_side = 32, .firmness = 12.5};
+/// After a kink: the rails are fair again.
+constexpr SweptPass kSteadyPass = {
+    .fairness = kFair, .anchor = 1e-5, .iterations = 8, .points_per_side = 32, .firmness = 12.5};
 /// Passes of limits: one with the rails as they are, one with twice as many control points.
 constexpr int kLimitRounds = 2;
 /// Covered share at which no further pass is run: the 0.15 % that are left are less than a third of a strip's default
@@ -66,17 +44,6 @@ constexpr double kObstacleHorizon = 2.0;
 /// Most deep points of one pass. With more, the limits would decide the fit by their number; every n-th is taken
 /// instead.
 constexpr std::size_t kMostDeepPoints = 800;
-/// Grid of the regularisers over t and s: about three samples per control point of a rail, which resolves its bends.
-constexpr int kRegulariserSamplesT = 80, kRegulariserSamplesS = 24;
-/// Weight of the slide of the tip along the axis. Zero lets a cone or a cylinder slide along itself (MATH section 7);
-/// much more is too stiff. This only makes the system regular.
-constexpr double kAxialPin = 1e-8;
-/// Tolerances: scale of the robust weights. Points that no strip comes near must not pull: beyond about 20 tolerances
-/// they are out of reach of a pass that is there to gain one.
-constexpr double kRobustScale = 20.0;
-/// A step that lowers the cost by less than a thousandth ends a pass: what counts is the share within tolerance, not
-/// the digits of the optimum.
-constexpr double kStepTolerance = 1e-3;
 /// Poses per strip of the estimate that looks for deep border points, and points per task (enough work to be worth
 /// handing out).
 constexpr int kBorderPoses = 60;
@@ -94,20 +61,12 @@ FitDraft draft_of(const TileScene& scene, const std::vector<CoverStrip>& strips)
   return draft;
 }
 
-FitStage stage_of(const Pass& pass, const TileScene& scene, int control_points) {
-  FitStage stage;
-  stage.samples_t = kRegulariserSamplesT;
-  stage.samples_s = kRegulariserSamplesS;
-  stage.control_points = control_points;
-  stage.iterations = pass.iterations;
-  stage.fairness = pass.fairness;
-  stage.transversal_anchor = pass.anchor;
-  stage.axial_pin = kAxialPin;
-  stage.dead_zone_mm = pass.dead_zone * scene.options.tolerance_mm;
-  stage.robust_scale_mm = kRobustScale * scene.options.tolerance_mm;
-  stage.overcut_weight = pass.overcut_weight;
-  stage.step_tolerance = kStepTolerance;
-  return stage;
+FitStage stage_of(const SweptPass& pass, const TileScene& scene, int control_points) {
+  FlankFitOptions options;
+  options.tolerance_mm = scene.options.tolerance_mm;
+  SweptPass own = pass;
+  own.control_points = control_points;
+  return swept_stage(own, options, scene.target.diagonal());
 }
 
 std::vector<RuledMotion> motions_of(const std::vector<CoverStrip>& strips) {
@@ -194,26 +153,54 @@ std::vector<CoverStrip> measured(const TileScene& scene, const std::vector<Ruled
   return strips;
 }
 
-/// Strips that cut too deep are lifted. One that still fails its certificate is replaced by what can be certified of it
-/// or by its predecessor in `before`, whichever adds more to what the other strips cover. `fallen`: how many failed.
+/// How many strips of a pass failed their certificate, and how many of them by a kink.
+struct Fallen {
+  int all = 0, kinked = 0;
+};
+
+/// The largest of the pieces of a strip between its kinks.
+CoverStrip longest_between_kinks(const TileScene& scene, CoverStrip strip, LineFitter& fitter) {
+  if (strip.cells.empty()) return strip;
+  std::vector<CoverStrip> pieces =
+      cut_at_kinks(scene.samples, scene.guard, std::move(strip), scene.radial, fitter, turn_limit(scene));
+  const auto largest = std::max_element(pieces.begin(), pieces.end(),
+                                        [](const CoverStrip& a, const CoverStrip& b) { return a.area < b.area; });
+  return largest == pieces.end() ? CoverStrip{} : std::move(*largest);
+}
+
+/// Each strip, or the largest of its pieces between kinks.
+std::vector<CoverStrip> without_kinks(const TileScene& scene, std::vector<CoverStrip> strips) {
+  parallel_for(strips.size(), [&](std::size_t k) {
+    LineFitter fitter(scene.target, scene.radial, line_options(scene));
+    strips[k] = longest_between_kinks(scene, std::move(strips[k]), fitter);
+  });
+  return strips;
+}
+
+/// Strips that cut too deep are lifted. One that still fails its certificate, or has a kink, is replaced by what can be certified of it
+/// or by its predecessor in `before`, whichever adds more to what the other strips cover.
 std::vector<CoverStrip> with_fallbacks(const TileScene& scene, const std::vector<CoverStrip>& strips,
-                                       const std::vector<CoverStrip>& before, int& fallen) {
+                                       const std::vector<CoverStrip>& before, Fallen& fallen) {
+  const double tolerance = scene.options.tolerance_mm;
   std::vector<CoverStrip> result(strips.size());
-  std::vector<char> good(strips.size());
+  std::vector<char> good(strips.size()), kinked(strips.size());
   parallel_for(strips.size(), [&](std::size_t k) {
     LineFitter fitter(scene.target, scene.radial, line_options(scene));
     result[k] = lifted(scene.samples, scene.guard, strips[k], scene.radial, fitter);
-    good[k] = is_certified(scene.guard, result[k], scene.options.tolerance_mm) ? 1 : 0;
-    if (good[k] == 0)
-      result[k] = cut_to_certified(scene.samples, scene.guard, std::move(result[k]), scene.radial, fitter);
+    kinked[k] = !result[k].cells.empty() && has_kink(result[k].motion, turn_limit(scene), tolerance) ? 1 : 0;
+    good[k] = kinked[k] == 0 && is_certified(scene.guard, result[k], tolerance) ? 1 : 0;
+    if (good[k] != 0) return;
+    result[k] = cut_to_certified(scene.samples, scene.guard, std::move(result[k]), scene.radial, fitter);
+    result[k] = longest_between_kinks(scene, std::move(result[k]), fitter);
   });
   CellCount covered(scene.samples);
   for (const CoverStrip& strip : result) covered.add(strip);
   // One after the other, in their order: each choice changes what is a gain for the next.
-  fallen = 0;
+  fallen = {};
   for (std::size_t k = 0; k < strips.size(); ++k) {
     if (good[k] != 0) continue;
-    ++fallen;
+    ++fallen.all;
+    fallen.kinked += kinked[k];
     covered.add(result[k], -1);
     if (covered.gain(before[k]) > covered.gain(result[k])) result[k] = before[k];
     covered.add(result[k]);
@@ -234,7 +221,7 @@ std::vector<FacePoint> points_to_fit(const TileScene& scene, const FitDraft& dra
 }
 
 /// One pass over all strips together. `limits`: places that are too deep already are held as well.
-std::vector<RuledMotion> run_pass(const TileScene& scene, const std::vector<CoverStrip>& strips, const Pass& pass,
+std::vector<RuledMotion> run_pass(const TileScene& scene, const std::vector<CoverStrip>& strips, const SweptPass& pass,
                                   int control_points, bool limits) {
   const FitDraft draft = draft_of(scene, strips);
   std::vector<FacePoint> points = points_to_fit(scene, draft, pass.points_per_side);
@@ -271,20 +258,21 @@ double covered_share(const CoverSamples& samples, const std::vector<CoverStrip>&
 // `now` is what the fit goes on from, certified or not; `best` is what could be certified. They are apart because a fit
 // from strips that were cut short would start with their gaps.
 SmoothResult smooth_strips(const TileScene& scene, const std::vector<CoverStrip>& strips) {
-  SmoothResult best{strips, covered_share(scene.samples, strips)};
+  SmoothResult best{without_kinks(scene, strips), 0.0};
+  best.coverage = covered_share(scene.samples, best.strips);
   std::vector<CoverStrip> now = strips;
   bool first = true;
   int control_points = scene.options.control_points;
-  for (const Pass& pass : kPasses) {
+  for (const SweptPass& pass : kPasses) {
     if (stopping()) break;
     now = measured(scene, run_pass(scene, now, pass, control_points, false));
     if (stopping()) break;
-    int fallen = 0;
+    Fallen fallen;
     std::vector<CoverStrip> trial = with_fallbacks(scene, now, best.strips, fallen);
-    for (int round = 0; round < kLimitRounds && fallen > 0 && !stopping(); ++round) {
+    for (int round = 0; round < kLimitRounds && fallen.all > 0 && !stopping(); ++round) {
       // Rails that are too stiff for what they have to do get twice as many points, not a worse tolerance.
       if (round > 0) control_points = 2 * scene.options.control_points;
-      now = measured(scene, run_pass(scene, now, kLimitPass, control_points, true));
+      now = measured(scene, run_pass(scene, now, fallen.kinked > 0 ? kSteadyPass : kLimitPass, control_points, true));
       trial = with_fallbacks(scene, now, best.strips, fallen);
     }
     const double share = covered_share(scene.samples, trial);

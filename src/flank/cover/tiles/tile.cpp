@@ -7,6 +7,7 @@
 
 #include "flank/base/parallel.h"
 #include "flank/base/stopping.h"
+#include "flank/path/turning.h"
 #include "flank/seed/direction/seeds.h"
 #include "flank/strip/certify.h"
 #include "flank/strip/strip_record.h"
@@ -45,10 +46,17 @@ constexpr std::array<double, 3> kGapSpheres = {0.5, 0.15, 0.85};
 /// circles.
 constexpr double kLeastImprovement = 1e-6;
 
-/// The strip of a line near `pose`; no cells if there is none. `is_line`: set if a line within tolerance was found,
-/// whether or not it is clear and grows.
-CoverStrip strip_near(const TileScene& scene, LineFitter& fitter, const Pose& pose, const GrowGuide& guide,
-                      double least_inside, bool* is_line = nullptr) {
+/// What came of a pose.
+struct NearStrip {
+  CoverStrip strip;      ///< no cells: none
+  bool line = false;     ///< a line within tolerance was found, whether or not it is clear and grows
+  bool blocked = false;  ///< something else is in the way of the line, or ended its strip
+};
+
+/// The strip of a line near `pose`.
+NearStrip strip_near(const TileScene& scene, LineFitter& fitter, const Pose& pose, const GrowGuide& guide,
+                     double least_inside) {
+  NearStrip near;
   const double tolerance = scene.options.tolerance_mm, length = scene.radial.axis_length();
   fitter.forget();
   LineFit line = fitter.refine(pose);
@@ -56,16 +64,28 @@ CoverStrip strip_near(const TileScene& scene, LineFitter& fitter, const Pose& po
     line = fitter.refine(slid_clear(scene.guard, line.pose, length), {Vec3::Zero(), kClearedSlide});
   if (!line.touches() || line.largest_mm > tolerance || line.inside_share < least_inside ||
       fitter.overcut(line.pose, tolerance) > tolerance)
-    return {};
-  if (is_line) *is_line = true;
-  if (!scene.guard.clear(line.pose)) return {};
+    return near;
+  near.line = true;
+  near.blocked = !scene.guard.clear(line.pose);
+  if (near.blocked) return near;
   const GrownStrip grown = grow(fitter, scene.guard, line, guide);
-  if (grown.poses.size() < kLeastPoses) return {};
+  near.blocked = grown.first == GrowEnd::kCheck || grown.last == GrowEnd::kCheck;
+  if (grown.poses.size() < kLeastPoses) return near;
   CoverStrip strip =
       measure_strip(scene.samples, motion_through(grown.poses, length, kGrownControlPoints), scene.radial, fitter);
   // Its poses are clear; what lies between them is checked for the strips that are chosen: a guard without obstacles
   // here.
-  return cut_to_certified(scene.samples, PoseGuard(), std::move(strip), scene.radial, fitter);
+  near.strip = cut_to_certified(scene.samples, PoseGuard(), std::move(strip), scene.radial, fitter);
+  return near;
+}
+
+/// The larger of two strips: near the pose, and, where something is in its way and the tool's ends are alike, near the pose turned end for
+/// end. What holds the tool is at one end alone.
+NearStrip strip_either_way(const TileScene& scene, LineFitter& fitter, const Pose& pose, double least_inside) {
+  NearStrip near = strip_near(scene, fitter, pose, {}, least_inside);
+  if (!near.blocked || !is_symmetric(scene.radial)) return near;
+  NearStrip turned = strip_near(scene, fitter, {pose.at(scene.radial.axis_length()), -pose.axis}, {}, least_inside);
+  return turned.strip.area > near.strip.area ? turned : near;
 }
 
 /// Strips beside `strip`, past its tip and past its holder end, that add to what is covered: the best of each side, two
@@ -84,7 +104,7 @@ std::vector<CoverStrip> neighbours(const TileScene& scene, const CoverStrip& str
       if (stopping()) break;
       Pose pose = strip.motion.pose(place);
       pose.tip += (beyond_tip ? overlap - length : length - overlap) * pose.axis;
-      CoverStrip trial = strip_near(scene, fitter, pose, guide, kLeastInsideOfNeighbours);
+      CoverStrip trial = strip_near(scene, fitter, pose, guide, kLeastInsideOfNeighbours).strip;
       const double gain = covered.gain(trial);
       if (gain > most) {
         most = gain;
@@ -229,9 +249,9 @@ std::vector<CoverStrip> strips_of(const TileScene& scene, const std::vector<Line
   parallel_for(seeds.size(), [&](std::size_t k) {
     if (stopping()) return;
     LineFitter fitter(scene.target, scene.radial, line_options(scene));
-    bool line = false;
-    strips[k] = strip_near(scene, fitter, seed_pose(seeds[k], scene.radial), {}, least_inside, &line);
-    is_line[k] = line ? 1 : 0;
+    NearStrip near = strip_either_way(scene, fitter, seed_pose(seeds[k], scene.radial), least_inside);
+    strips[k] = std::move(near.strip);
+    is_line[k] = near.line ? 1 : 0;
   });
   if (lines) *lines = static_cast<int>(std::count(is_line.begin(), is_line.end(), 1));
   std::erase_if(strips, [](const CoverStrip& strip) { return strip.cells.empty(); });
@@ -250,6 +270,13 @@ LineFitOptions line_options(const TileScene& scene) {
   options.tolerance_mm = scene.options.tolerance_mm;
   options.samples = scene.line_samples;
   return options;
+}
+
+TurnLimit turn_limit(const TileScene& scene) {
+  /// The judge's window is that of a box about the cells of its own samples, which is hardly larger.
+  constexpr double kSpare = 0.95;
+  const double window = scene.options.turn_window_mm;
+  return {kSpare * scene.options.most_turn_rad, window > 0.0 ? window : turn_window(scene.target.diagonal())};
 }
 
 CandidatePool grow_pool(const TileScene& scene, const std::vector<LineSeed>& seeds) {

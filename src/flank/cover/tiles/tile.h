@@ -12,6 +12,7 @@
 #include "flank/obstacle/pose_guard.h"
 #include "flank/radial_function.h"
 #include "flank/strip/grow.h"
+#include "flank/strip/kinks.h"
 #include "flank/strip/strip_measure.h"
 #include "flank/target.h"
 
@@ -28,6 +29,9 @@ struct TileScene {
   /// (cover.cpp), because ripples of a spline at its border slip between few.
   int line_samples = 17;
 };
+
+/// What its strips may turn by.
+[[nodiscard]] TurnLimit turn_limit(const TileScene& scene);
 
 /// Options of a LineFitter for the scene: its tolerance and its samples of the axis.
 [[nodiscard]] LineFitOptions line_options(const TileScene& scene);

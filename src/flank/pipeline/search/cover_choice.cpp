@@ -42,7 +42,6 @@ ToolExtent largest_extent(const std::vector<Tool>& tools) {
   for (const Tool& tool : tools) {
     const ToolExtent extent = extent_of(tool);
     largest.reach_mm = std::max(largest.reach_mm, extent.reach_mm);
-    largest.above = largest.above || extent.above;
   }
   return largest;
 }

@@ -1,6 +1,7 @@
 #include "flank/pipeline/search/cover_groups.h"
 
 #include <algorithm>
+#include <numbers>
 
 #include "flank/base/tolerance_budget.h"
 #include "flank/error.h"
@@ -13,6 +14,7 @@ CoverOptions options_of(const CoverJob& job) {
   options.strategy = job.strategy == "curves" ? CoverStrategy::kCurves : CoverStrategy::kGrow;
   options.places = job.seeds == "shape" ? SeedPlaces::kShape : SeedPlaces::kGrid;
   options.tolerance_mm = job.tolerance_mm.value_or(options.tolerance_mm);
+  options.most_turn_rad = job.judge.most_turn_deg * std::numbers::pi / 180.0;
   if (job.most_strips) options.most_strips = *job.most_strips;
   if (job.strip_price) options.strip_price = *job.strip_price;
   if (job.seed && options.strategy != CoverStrategy::kCurves) throw UsageError("seed", "needs `strategy` curves");
@@ -26,7 +28,6 @@ ToolExtent extent_of(const Tool& tool) {
   for (int j = 0; j <= 16; ++j)
     extent.reach_mm = std::max(extent.reach_mm, length + 2.0 * tool.radial.at(length * j / 16.0).r);
   for (const auto* profile : {&tool.shank, &tool.holder}) {
-    extent.above = extent.above || !profile->empty();
     for (const Vec2& p : *profile) extent.reach_mm = std::max(extent.reach_mm, p.x() + 2.0 * p.y());
   }
   return extent;
@@ -40,12 +41,10 @@ Obstacles obstacles_of(const CoverJob& job, const Setup& setup, const TargetGrou
   choice.tolerance_mm = tolerance_mm;
   choice.allowance_mm = setup.allowance_mm;
   ObstacleDetail detail;
-  detail.meshes_within_mm = extent.reach_mm;
+  detail.meshes_within_mm = std::max(extent.reach_mm, setup.part.box.diagonal());
   detail.deviation_mm = std::clamp(kToleranceBudget.others.triangles * tolerance_mm, 1e-3, 0.05);
-  if (extent.above) {
-    detail.own_deviation_mm = std::clamp(kToleranceBudget.shank.triangles * tolerance_mm, 1e-3, 0.02);
-    detail.own_spare_mm = kToleranceBudget.shank.spare * tolerance_mm;
-  }
+  detail.own_deviation_mm = std::clamp(kToleranceBudget.shank.triangles * tolerance_mm, 1e-3, 0.02);
+  detail.own_spare_mm = kToleranceBudget.shank.spare * tolerance_mm;
   return make_obstacles(setup.part, *group.target, choice, detail);
 }
 

@@ -15,15 +15,14 @@ struct Covered {
   CoverResult result;
 };
 
-/// How far a tool reaches from a place that it touches, mm, and whether anything stands above its flank.
+/// How far a tool reaches from a place that it touches, mm, if only what is known of it is counted.
 struct ToolExtent {
   double reach_mm = 0.0;
-  bool above = false;
 };
 [[nodiscard]] ToolExtent extent_of(const Tool& tool);
 
-/// What is in the way of tools of this extent at a group of targets: other faces of the part, and fixtures; for shank and
-/// holder the target itself as well.
+/// What is in the way of tools of this extent at a group of targets: other faces of the part, and fixtures; for what holds the tool all of
+/// the part, the target itself as well.
 [[nodiscard]] Obstacles obstacles_of(const CoverJob& job, const Setup& setup, const TargetGroup& group,
                                      const ToolExtent& extent);
 
