@@ -71,6 +71,7 @@ TEST_F(ChosenClearShank, StaysAsThickAsTheFlankWhereAThinnerOneWouldBendTooMuch)
 Result found_beside(const std::function<Result(Result first)>& second) {
   Result first;
   first.complete = true;
+  first.tool.radial = RadialFunction(ToolFamily::kCylinder, 20.0, Eigen::VectorXd::Constant(1, 5.0));
   FitJob chosen;
   chosen.obstacles.shank_length_mm = 30.0;
   first.job = chosen;
