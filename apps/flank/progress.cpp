@@ -34,6 +34,18 @@ void on_end(int signal) {
   std::raise(signal);
 }
 
+/// From now on `handler` is called when we are asked to end; also for what came before, if whoever started us held it back until somebody here
+/// could hear it.
+void handle_ends(void (*handler)(int)) {
+  sigset_t ends;
+  sigemptyset(&ends);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    std::signal(signal, handler);
+    sigaddset(&ends, signal);
+  }
+  ::pthread_sigmask(SIG_UNBLOCK, &ends, nullptr);
+}
+
 /// A line of JSON for every report on stderr; of reports that follow each other fast only the first.
 Progress as_json(Progress progress) {
   constexpr double kPause = 0.1;  // seconds
@@ -81,12 +93,10 @@ void say_operations_kept(const std::string& folder) {
                   printable(folder)));
 }
 
-void end_on_signals() {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, on_end);
-}
+void end_on_signals() { handle_ends(on_end); }
 
 Progress terminal_progress(const CommonOptions& options) {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, on_interrupt);
+  handle_ends(on_interrupt);
   Progress progress;
   progress.cancelled = [] { return interrupted != 0; };
   if (options.progress == "json") return as_json(std::move(progress));

@@ -62,6 +62,13 @@ def with_codes(lines):
     return out
 
 
+def require_one_tool(program):
+    """Its moves become one operation, which has one tool: those of a wheel's others would be cut with the wrong one."""
+    tools = {float(value) for line in program.splitlines() for letter, value in words_of(line) if letter == "T"}
+    if len(tools) > 1:
+        raise RuntimeError(f"the program has {len(tools)} tools, and the CAM job would have one: write the program instead")
+
+
 @contextlib.contextmanager
 def one_step(document, bits):
     """All that is done in it is one step of undo: with a window FreeCAD's maker of tool bits would begin and end steps of its own."""
@@ -79,7 +86,9 @@ def to_cam_job(obj, spindle, feed, machine=MACHINE):
     file = os.path.join(os.path.dirname(obj.Folder), "cam.ngc")
     flank_operation.post(obj, machine, spindle, feed, file)
     with open(file, encoding="utf-8") as stream:
-        lines = gcode(stream.read())
+        program = stream.read()
+    require_one_tool(program)
+    lines = gcode(program)
     jobs = module("Path.Main.Job", "PathScripts.PathJob")
     bits = module("Path.Tool.Bit", "PathScripts.PathToolBit")
     controllers = module("Path.Tool.Controller", "PathScripts.PathToolController")

@@ -60,6 +60,9 @@ def run(words, progress=None):
         code = child.wait()
         printed.seek(0)
         said = printed.read()
+    if stopped and code == -signal.SIGINT:
+        # Before it could answer: then there was nothing to keep.
+        return FALLS_SHORT, ""
     if code not in (MEETS, FALLS_SHORT):
         raise FlankError(message.removeprefix("flank: ") or f"flank ended with {code}")
     return code, said

@@ -1,6 +1,7 @@
 #include "flank/base/atomic_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -56,6 +57,30 @@ TEST_F(AtomicFileTest, LeavesNothingWithoutCommit) {
   }
   EXPECT_EQ(content(path("f")), "old");
   EXPECT_EQ(count(), 1);
+}
+
+TEST_F(AtomicFileTest, RemovesWhatAWriterLeftThatWasKilled) {
+  for (const std::string& name : {std::string("f"), std::string(255, 'x')}) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      const AtomicFile file(path(name));
+      std::ofstream(file.temporary()) << "half";
+      ::_exit(0);  // without a destructor, as if it were killed
+    }
+    ASSERT_GT(child, 0);
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_EQ(count(), 1);
+    // Of another file, and of somebody who writes still.
+    std::ofstream(path("g.part-1-1")) << "of g";
+    const AtomicFile writer(path(name));
+    write_file(path(name), "whole");
+    EXPECT_TRUE(fs::exists(writer.temporary()));
+    EXPECT_EQ(count(), 3);
+    fs::remove(path(name));
+    fs::remove(path("g.part-1-1"));
+    fs::remove(writer.temporary());
+  }
 }
 
 TEST_F(AtomicFileTest, ANameMayBeAsLongAsTheFileSystemLetsItBe) {

@@ -213,6 +213,61 @@ def edited():
     return found
 
 
+def stopping_at_once(act):
+    """Does something during which the Stop of the progress is clicked as soon as it is there."""
+    def watch():
+        dialog = widget(QtWidgets.QProgressDialog, "FlankProgress")
+        if dialog is not None:
+            dialog.findChild(QtWidgets.QPushButton).click()
+
+    timer = QtCore.QTimer()
+    timer.timeout.connect(watch)
+    timer.start(20)
+    act()
+    timer.stop()
+
+
+def wheel():
+    """All operations of a wheel: the part is chosen, the command is run and stopped; then a cheap request, its panel, and the same again."""
+    import flank_operation
+    import flank_panel
+
+    document = FreeCAD.newDocument("Wheel")
+    document.UndoMode = 1
+    part = document.addObject("Part::Feature", "Impeller")
+    part.Shape = Part.read(os.environ["FLANK_WHEEL"])
+    document.recompute()
+    FreeCADGui.Selection.clearSelection()
+    found = {"active_without_choice": FreeCADGui.Command.get("OpenFlank_Wheel").isActive()}
+    FreeCADGui.Selection.addSelection(document.Name, part.Name)
+    found["active"] = FreeCADGui.Command.get("OpenFlank_Wheel").isActive()
+    stopping_at_once(lambda: FreeCADGui.runCommand("OpenFlank_Wheel"))
+    operation = document.getObject("WheelOperation")
+    found["stopped"] = state(operation)
+    # What a wheel takes most of its time for is left out.
+    operation.Roughing, operation.Edges, operation.Sample = "off", "off", 0.5
+    document.recompute()
+    found["first"] = {**state(operation), "operations": list(operation.Operations), "reasons": list(operation.Reasons), "facets": operation.ErrorMap.Mesh.CountFacets,
+                      "length": operation.PathShape.Shape.Length, "children": len(operation.ViewObject.Proxy.claimChildren())}
+    found["folder"] = operation.Folder
+    settle(1.0)
+    found["tree"] = icon_in_tree(operation.Label)
+    shown = flank_panel.open_panel(operation)
+    shown.slider.setValue(500)
+    found["place"] = shown.place.text()
+    for name, act in (("posted", lambda: shown.write(os.path.join(folder, "wheel.ngc"))), ("job", shown.to_cam_job)):
+        shown.guarded(act)
+        found[name] = shown.message.text()
+    found["picture"] = picture("workbench-wheel")
+    FreeCADGui.Control.closeDialog()
+    file = os.path.join(folder, "wheel.FCStd")
+    document.saveAs(file)
+    FreeCAD.closeDocument(document.Name)
+    again = FreeCAD.openDocument(file).getObject("WheelOperation")
+    found["loaded"] = {**state(again), "proxy": type(again.Proxy).__name__, "operations": list(again.Operations)}
+    return found
+
+
 def drive():
     FreeCADGui.activateWorkbench("OpenFlankWorkbench")
     settle()
@@ -231,6 +286,7 @@ def drive():
     found["folder"] = operation.Folder
     found["stopped"] = stopped(operation)
     found["edited"] = edited()
+    found["wheel"] = wheel()
     return found
 
 

@@ -21,13 +21,14 @@ const here = dirname(fileURLToPath(import.meta.url)), result = join(root, 'windo
 let found;
 
 before(() => {
-  const part = join(root, 'blade.step'), modules = join(root, '.local/share/FreeCAD/Mod');
+  const part = join(root, 'blade.step'), wheel = join(root, 'impeller.step'), modules = join(root, '.local/share/FreeCAD/Mod');
   must('example', 'twisted-blade', '-o', part, '--quiet');
+  must('example', 'impeller', '-o', wheel, '--quiet');
   // As a user installs it.
   mkdirSync(modules, { recursive: true });
   symlinkSync(join(here, '../../freecad/OpenFlank'), join(modules, 'OpenFlank'));
   const { stdout, stderr } = spawnSync('xvfb-run', ['-a', '-s', '-screen 0 1280x900x24', freecad, join(here, 'freecad_window_check.py')], { encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'], timeout: 850000,
-    env: { ...process.env, FLANK_PART: part, FLANK_RESULT: result, HOME: root, QTWEBENGINE_DISABLE_SANDBOX: '1' } });
+    env: { ...process.env, FLANK_PART: part, FLANK_WHEEL: wheel, FLANK_RESULT: result, HOME: root, QTWEBENGINE_DISABLE_SANDBOX: '1' } });
   try {
     found = JSON.parse(readFileSync(result));
   } catch (error) {
@@ -103,4 +104,29 @@ test('an edit of the part is followed, undone, saved and loaded', () => {
   assert.ok(loaded.facets > 50 && loaded.children === 3);
   assert.equal(recomputed.exit, 0);
   assert.ok(recomputed.length > 1.1 * first.length && recomputed.length < longer.length);
+});
+
+test('a wheel is an operation, too: its Stop is heard, its operations are listed, its verdict is the exit code', () => {
+  const { active_without_choice: idle, active, stopped, first, tree, place } = found.wheel;
+  assert.deepEqual([idle, active], [false, true]);
+  assert.deepEqual([stopped.verdict, stopped.exit], ['stopped, does NOT meet the request', 1]);
+  const plan = JSON.parse(readFileSync(join(found.wheel.folder, 'plan.json')));
+  assert.deepEqual(first.operations.map((words) => words.split(' ')[0]), plan.operations.map(({ id }) => id));
+  assert.ok(first.operations.filter((words) => /: done/.test(words)).length > 1, first.operations.join());
+  assert.equal(first.exit === 0, plan.pass);
+  assert.equal(first.verdict, plan.pass ? 'meets the request' : 'does NOT meet the request');
+  assert.equal(first.reasons.length > 0, !plan.pass);
+  assert.ok(first.facets > 100 && first.length > 10 && first.children === 3, JSON.stringify(first));
+  assert.equal(tree, first.icon);
+  assert.match(place, /^pass \d+, point \d+$/);
+});
+
+test('a wheel that is loaded says what it said', () => {
+  const { first, loaded } = found.wheel;
+  assert.deepEqual([loaded.proxy, loaded.verdict, loaded.operations], ['WheelOperation', first.verdict, first.operations]);
+});
+
+test('what cannot be done with a piece of a wheel is said', () => {
+  assert.match(found.wheel.posted, /expected a whole wheel/);
+  assert.match(found.wheel.job, /expected a whole wheel/);
 });

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
+#include "flank/error.h"
+
 namespace flank::internal {
 namespace {
 
@@ -61,6 +65,37 @@ TEST_F(ChosenClearShank, IsTheThickestThatIsClear) {
 
 TEST_F(ChosenClearShank, StaysAsThickAsTheFlankWhereAThinnerOneWouldBendTooMuch) {
   EXPECT_EQ(chosen(1.0, 4.0).shank_radius_mm, 5.0);
+}
+
+/// Plans whose first comes too near with the shank that it has chosen, and whose second ends as `second` does.
+Result found_beside(const std::function<Result(Result first)>& second) {
+  Result first;
+  first.complete = true;
+  first.tool.radial = RadialFunction(ToolFamily::kCylinder, 20.0, Eigen::VectorXd::Constant(1, 5.0));
+  FitJob chosen;
+  chosen.obstacles.shank_length_mm = 30.0;
+  first.job = chosen;
+  first.chord_bound_mm = 0.125;
+  first.verify.clearance.figures.resize(1);
+  first.verify.clearance.figures[0].kept = false;
+  const ShankPlan<FitJob> plan = [&](const FitJob&, bool in_the_way, const Progress&) {
+    return in_the_way ? second(first) : first;
+  };
+  return with_room_for_shank<FitJob>(FitJob{}, false, plan, {});
+}
+
+TEST(RoomForShank, AStopOfTheSecondPlanKeepsWhatTheFirstFound) {
+  const auto stopped = [](Result) -> Result { throw Stopped(); };
+  const auto incomplete = [](Result first) {
+    first.complete = false;
+    first.chord_bound_mm = 0.0;
+    return first;
+  };
+  for (const Result& found : {found_beside(stopped), found_beside(incomplete)}) {
+    EXPECT_EQ(found.chord_bound_mm, 0.125);
+    EXPECT_FALSE(found.complete);
+    EXPECT_TRUE(found.journal) << "it can be gone on with";
+  }
 }
 
 TEST_F(ChosenClearShank, IsAsThickAsWasAsked) {

@@ -215,5 +215,37 @@ TEST_F(StudioServer, EndsItsChildrenWithItself) {
   EXPECT_TRUE(fs::exists(folder / "jobs" / id / "result/resume.json")) << "it can go on";
 }
 
+TEST_F(StudioServer, AStopIsHeardHoweverEarlyItComes) {
+  const Studio studio(root_ / "studio");
+  const std::string name = part(studio, "envelope-cone-1");
+  const Json asked{{"command", "fit"}, {"part", name}, {"fields", {{"tolerance_mm", "0.05"}, {"effort", "quick"}}}};
+  const auto done = [](const Json& job) { return job.at("state") == "done"; };
+  std::string id;
+  for (int k = 0; k < 5; ++k) {
+    id = Json::parse(studio.post("jobs", asked.dump())->body).at("id");
+    (void)studio.wait(id, [](const Json& job) { return job.at("state") == "running"; });
+    (void)studio.post("jobs/" + id + "/stop", "");
+    const Json stopped = studio.wait(id, done);
+    EXPECT_EQ(stopped.at("exit"), 1) << "not ended by the signal: " << stopped.dump(1);
+    EXPECT_EQ(stopped.at("crash"), "");
+    EXPECT_EQ(stopped.at("resumable"), true) << "it had nothing yet, and can be begun again";
+  }
+  (void)studio.post("jobs/" + id + "/resume", "");
+  EXPECT_EQ(studio.wait(id, [&](const Json& job) { return done(job) && job.at("exit") == 0; }).at("resumable"), false);
+}
+
+TEST_F(StudioServer, ClearsWhatAKilledOneWasInTheMiddleOf) {
+  const fs::path folder = root_ / "studio";
+  fs::create_directories(folder / "parts");
+  fs::create_directories(folder / ".said-AbCdEf");
+  std::ofstream(folder / ".said-AbCdEf/out") << "half";
+  std::ofstream(folder / "parts/.half-7") << "half";
+  std::ofstream(folder / "parts/kept.step") << "whole";
+  const Studio studio(folder);
+  EXPECT_FALSE(fs::exists(folder / ".said-AbCdEf"));
+  EXPECT_FALSE(fs::exists(folder / "parts/.half-7"));
+  EXPECT_TRUE(fs::exists(folder / "parts/kept.step"));
+}
+
 }  // namespace
 }  // namespace flank::internal

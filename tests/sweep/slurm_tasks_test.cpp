@@ -97,5 +97,18 @@ TEST_F(SlurmElement, ATaskThatTakesTooLongDoesNotEndItsElement) {
   EXPECT_EQ(content("1.exit").substr(0, 2), "0 ");
 }
 
+// Its job is in the queue for as long as the shell runs: who waits for the job must not meet a task of it that still writes.
+TEST_F(SlurmElement, ACancelledOneWaitsForItsTaskAndSaysNothingOfIt) {
+  const std::string task =
+      "trap 'sleep 0.5; echo ended > ended; exit 1' TERM; echo begun > begun; while :; do sleep 0.05; done";
+  write_tasks({{task, root_}, {"echo next > next", root_}}, 0.0);
+  write_script(2, 600);
+  const std::string script = (root_ / "script").string();
+  run("SLURM_ARRAY_TASK_ID=0 setsid sh \"" + script + "\" 0 & job=$!; cd \"" + root_.string() +
+      "\"; until [ -e begun ]; do sleep 0.05; done; kill -TERM -$job; wait $job; [ $? = 143 ] && [ -e ended ]");
+  EXPECT_EQ(content("0.exit"), "") << "it is a task that vanished, and is begun again";
+  EXPECT_EQ(content("next"), "") << "nothing more is taken";
+}
+
 }  // namespace
 }  // namespace flank::internal

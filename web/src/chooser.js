@@ -170,7 +170,6 @@ export class Chooser {
   }
 
   hoverAt(event) {
-    this.stage.moved = true;
     if (this.looking) return;
     this.looking = true;
     requestAnimationFrame(() => {

@@ -50,7 +50,7 @@ export class Live {
       for (const point of job.progress) this.points.push({ ...point, share: Math.max(point.share, this.points.at(-1)?.share ?? 0) });
       this.message = job.message || this.message;
       this.job = job;
-      this.draw();
+      this.drawIfNew();
       this.told(job);
       if (job.state !== 'done') pause = LOOK;
     } catch (error) {
@@ -88,6 +88,7 @@ export class Live {
     const made = html('button', { type: 'button', class: act, hidden: '' }, text);
     made.addEventListener('click', async () => {
       made.disabled = true;
+      this.drawn = '';
       await post(`jobs/${this.id}/${act}`).catch((error) => this.complain(error));
       this.again(0);
     });
@@ -96,7 +97,16 @@ export class Live {
 
   complain(error) {
     this.said = null;
+    this.drawn = '';
     this.words.replaceChildren(html('p', { class: 'notice', role: 'alert' }, error.message));
+  }
+
+  /** What is the same is not drawn again: without a graphics card every change of the page costs the processor, which the job needs. */
+  drawIfNew() {
+    const key = JSON.stringify([{ ...this.job, progress: [], next: 0, seconds: seconds(this.job.seconds) }, this.points.length]);
+    if (key === this.drawn) return;
+    this.drawn = key;
+    this.draw();
   }
 
   draw() {

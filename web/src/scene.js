@@ -10,8 +10,9 @@ const ROOM = { left: 150, right: 40, top: 56, bottom: 30 };
 /** In a narrow view what stands at the sides may cover the part. */
 const NARROW = 620;
 
-/** Without a graphics card: milliseconds of rest after which a picture is drawn again with smooth edges, twice as wide and high. */
-const REST = 250, SHARP = 2;
+/** Without a graphics card: milliseconds of rest after which a picture is drawn again with smooth edges, twice as wide and high; while it turns
+ * it is half as wide and high, for every pixel costs the processor. */
+const REST = 250, SHARP = 2, TURNING = 0.5;
 
 /** Whether the processor draws, once that was asked. */
 let software = null;
@@ -37,8 +38,8 @@ export class Stage {
     this.quiet = true;
     const slow = isSoftware();
     this.soft = quick && slow;
-    // The first picture is as rough as one that moves: it is wanted soon.
-    this.moved = this.soft;
+    // The first picture is as rough as one that turns: it is wanted soon.
+    this.turns = true;
     // What was drawn last stays readable: for printing and for screenshots.
     this.renderer = new WebGLRenderer({ canvas, antialias: !this.soft, alpha: true, preserveDrawingBuffer: true });
     // Asking the driver for complaints makes it finish every program before the next is begun.
@@ -67,8 +68,10 @@ export class Stage {
     this.controls?.dispose();
     this.controls = new OrbitControls(this.camera, this.canvas);
     this.controls.target.copy(target);
-    this.controls.addEventListener('start', () => { this.moved = true; });
-    this.controls.addEventListener('change', () => this.draw());
+    this.controls.addEventListener('change', () => {
+      this.turns = true;
+      this.draw();
+    });
     this.controls.update();
   }
 
@@ -113,7 +116,7 @@ export class Stage {
 
   /** Turns about the target by angles in radians, or comes nearer by a factor. */
   orbit(right, upwards, nearer = 1) {
-    this.moved = true;
+    this.turns = true;
     const offset = this.camera.position.clone().sub(this.controls.target);
     offset.applyAxisAngle(this.camera.up, right);
     const side = new Vector3().crossVectors(this.camera.up, offset).normalize();
@@ -144,12 +147,14 @@ export class Stage {
     });
   }
 
-  /** Now: roughly while it moves, smoothly once it rests. */
+  /** Now: roughly while it turns or changes, smoothly once it rests. */
   render() {
-    if (this.soft && this.moved) {
-      if (this.renderer.getPixelRatio() !== 1) this.renderer.setPixelRatio(1);
+    if (this.soft) {
+      const ratio = this.turns ? TURNING : 1;
+      if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio);
       clearTimeout(this.rest);
       this.rest = setTimeout(() => {
+        this.turns = false;
         this.renderer.setPixelRatio(SHARP);
         this.renderer.render(this.scene, this.camera);
       }, REST);

@@ -24,7 +24,7 @@ const job = new JobPane(parts, async (id) => {
 async function look() {
   try {
     const state = await get('state');
-    byId('subtitle').textContent = state.folder;
+    if (byId('subtitle').textContent !== state.folder) byId('subtitle').textContent = state.folder;
     byId('notices').replaceChildren();
     parts.list(state.parts);
     result.list(state.jobs);

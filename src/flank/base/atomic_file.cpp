@@ -1,15 +1,20 @@
 #include "flank/base/atomic_file.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <climits>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "flank/base/kept/read_files.h"
 #include "flank/error.h"
@@ -18,6 +23,9 @@ namespace flank::internal {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Between the name of a file, and the numbers of who writes it.
+constexpr std::string_view kPart = ".part-";
 
 [[noreturn]] void refuse(const std::string& file, int error) {
   const char* advice =
@@ -37,9 +45,42 @@ std::string cut_name(const std::string& name, std::size_t most) {
 /// the file system lets it be: the temporary one is cut where it would be longer.
 std::string temporary_name(const std::string& file) {
   static std::atomic<unsigned> counter{0};
-  const std::string ending = ".part-" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
+  const std::string ending = std::string(kPart) + std::to_string(::getpid()) + "-" + std::to_string(counter++);
   const fs::path path = file;
   return (path.parent_path() / (cut_name(path.filename().string(), NAME_MAX - ending.size()) + ending)).string();
+}
+
+/// Whether temporary_name has made this name for the file, in whatever process.
+bool is_temporary_of(const std::string& name, const std::string& file) {
+  const std::size_t at = name.rfind(kPart);
+  if (at == std::string::npos) return false;
+  const std::string numbers = name.substr(at + kPart.size());
+  return name.substr(0, at) == cut_name(file, NAME_MAX - (name.size() - at)) &&
+         std::count(numbers.begin(), numbers.end(), '-') == 1 &&
+         numbers.find_first_not_of("0123456789-") == std::string::npos;
+}
+
+/// Removes what writers of this file have left that were killed. The system takes the lock from a process with its life, on whatever machine
+/// it ran.
+void remove_left(const fs::path& file) {
+  std::vector<std::string> left;
+  std::error_code ignored;
+  const std::string folder = file.parent_path().empty() ? "." : file.parent_path().string();
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    if (is_temporary_of(entry.path().filename().string(), file.filename().string())) left.push_back(entry.path());
+  for (const std::string& name : left) {
+    const int descriptor = ::open(name.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    if (descriptor < 0) continue;
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) ::unlink(name.c_str());
+    ::close(descriptor);
+  }
+}
+
+/// Whether a name still leads to an open file.
+bool leads_to(const std::string& name, int descriptor) {
+  struct stat named = {}, open = {};
+  return ::lstat(name.c_str(), &named) == 0 && ::fstat(descriptor, &open) == 0 && named.st_ino == open.st_ino &&
+         named.st_dev == open.st_dev;
 }
 
 /// Where a link leads, even if nothing is there yet.
@@ -116,18 +157,27 @@ std::string folder_of(const std::string& file) {
 }  // namespace
 
 // The file is made at once, so that a wrong folder is noticed before anything is computed for it.
-AtomicFile::AtomicFile(const std::string& file) : file_(followed(file)), temporary_(temporary_name(file_)) {
+AtomicFile::AtomicFile(const std::string& file) : file_(followed(file)) {
   require_place(file_);
   require_unread(file_);
   // A name that is too long is told now, and not by the last step.
   if (fs::path(file_).filename().string().size() > NAME_MAX) refuse(file, ENAMETOOLONG);
-  const int descriptor = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (descriptor < 0) refuse(file, errno);
-  ::close(descriptor);
+  remove_left(file_);
+  constexpr int kMostTries = 5;
+  for (int k = 0; k < kMostTries; ++k) {
+    if (lock_ >= 0) ::close(lock_);
+    temporary_ = temporary_name(file_);
+    lock_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (lock_ < 0) refuse(file, errno);
+    // Another writer may have met it before it was locked, and taken it away.
+    (void)::flock(lock_, LOCK_EX);
+    if (leads_to(temporary_, lock_)) return;
+  }
 }
 
 AtomicFile::~AtomicFile() {
   if (!committed_ && ::unlink(temporary_.c_str()) != 0) ::unlink(temporary_.c_str());
+  ::close(lock_);
 }
 
 void AtomicFile::commit() {

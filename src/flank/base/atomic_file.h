@@ -11,8 +11,8 @@ namespace flank::internal {
 /// destructor removes what was not committed.
 class AtomicFile {
  public:
-  /// A link is followed: what it points to is written, and it stays. Throws InputError when the folder does not exist, or
-  /// the file cannot be created there, or `file` is a folder, a device or a pipe, or is read by who asked for it (base/kept).
+  /// A link is followed: what it points to is written, and it stays. What writers of this file have left that were killed
+  /// is removed. Throws InputError when the folder does not exist, or the file cannot be created there, or `file` is a folder, a device or a pipe, or is read by who asked for it (base/kept).
   explicit AtomicFile(const std::string& file);
   /// Without commit() the temporary file is removed, and the real one is as before.
   ~AtomicFile();
@@ -30,6 +30,7 @@ class AtomicFile {
   std::string file_;
   /// Unique, so that two writers of one file do not meet.
   std::string temporary_;
+  int lock_ = -1;  ///< descriptor of the temporary file: as long as it is locked, somebody writes it
   bool committed_ = false;
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "flank/error.h"
 #include "flank/pipeline/run_journal.h"
 #include "flank/results/acceptance.h"
 #include "flank/setup/shank_reach.h"
@@ -95,6 +96,21 @@ std::string default_shank(const ObstacleRequest& request, bool own_body) {
   return request.shank == "given" && !given ? "auto" : request.shank;
 }
 
+namespace {
+
+/// The plan with the shank in the way; nothing if it was stopped, however early.
+template <class Job>
+std::optional<Result> whole_of(const ShankPlan<Job>& plan, const Job& job, const Progress& progress) {
+  try {
+    Result result = plan(job, true, progress);
+    if (result.complete) return result;
+  } catch (const Stopped&) {  // what was found without it in the way stays
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 template <class Job>
 Result with_room_for_shank(const Job& job, bool always, const ShankPlan<Job>& plan, const Progress& asked) {
   constexpr double kFirst = 0.8;  // of the progress
@@ -108,12 +124,12 @@ Result with_room_for_shank(const Job& job, bool always, const ShankPlan<Job>& pl
   if (found.complete && made.shank_length_mm && (chosen || !always) && in_the_way) {
     Job with = job;
     with.obstacles = made;
-    Result again = plan(with, true, progress.part(kFirst, 1.0));
-    if (!again.complete) {
+    const std::optional<Result> again = whole_of(plan, with, progress.part(kFirst, 1.0));
+    if (!again) {
       found.complete = false;
       found.journal = progress.journal;
-    } else if (again.acceptance().reasons.size() < first.reasons.size()) {
-      found = std::move(again);
+    } else if (again->acceptance().reasons.size() < first.reasons.size()) {
+      found = *again;
     }
   }
   if (chosen) note_chosen_shank(found.tool, std::get<Job>(found.job).obstacles, found.notes);

@@ -55,7 +55,7 @@ int code_of(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : kSign
 /// A folder for what one child says, gone afterwards.
 class Scratch {
  public:
-  explicit Scratch(const std::string& folder) : folder_(folder + "/.said-XXXXXX") {
+  explicit Scratch(const std::string& folder) : folder_(folder + "/" + kScratch + "XXXXXX") {
     if (::mkdtemp(folder_.data()) == nullptr) throw InternalError(folder_ + ": cannot be made");
   }
   ~Scratch() {
@@ -83,7 +83,11 @@ Child start_child(const ChildWords& words) {
   posix_spawn_file_actions_addclosefrom_np(&files, STDERR_FILENO + 1);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID);
+  sigset_t held;
+  sigemptyset(&held);
+  if (words.holds_interrupt) sigaddset(&held, SIGINT);
+  posix_spawnattr_setsigmask(&attributes, &held);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK);
   std::vector<std::string> copy = words.words;
   copy.insert(copy.begin(), words.program);
   std::vector<char*> pointers;

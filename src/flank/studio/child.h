@@ -24,6 +24,8 @@ struct ChildWords {
   std::vector<std::string> words;  ///< without the program's name
   std::string folder;              ///< where it runs
   std::string out, err;            ///< files for its streams; what was there is kept, and more added
+  /// An interrupt waits until the child can answer it: until then it would end the child, and what it was to keep.
+  bool holds_interrupt = false;
 };
 
 /// Starts a child in a session of its own: signals of a terminal do not reach it, and it goes on if we are killed. Throws InternalError.
@@ -38,6 +40,9 @@ struct ChildWords {
 
 /// Sends a signal to the process, if it is still this one.
 void signal_child(const Child& child, int signal);
+
+/// How the folders begin in which run_child keeps what a child says.
+inline constexpr const char* kScratch = ".said-";
 
 /// What a short child said.
 struct Said {

@@ -41,6 +41,15 @@ int locked(const std::string& folder) {
   return lock;
 }
 
+/// Removes what has a name with this beginning.
+void remove_begun(const std::string& folder, const std::string& beginning) {
+  std::vector<fs::path> begun;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().filename().string().starts_with(beginning)) begun.push_back(entry.path());
+  std::error_code ignored;
+  for (const fs::path& path : begun) fs::remove_all(path, ignored);
+}
+
 /// The bytes of a file in a folder of ours; links are not followed.
 std::string read_in(const std::string& folder, const std::string& name) {
   const fs::path file = fs::path(folder) / name;
@@ -101,6 +110,9 @@ void add_files(const std::string& folder, const std::string& way, NamedFiles& fi
 Desk::Desk(const std::string& folder, std::string program)
     : folder_{absolute(folder)}, program_(std::move(program)), lock_(locked(folder_.path)), jobs_(folder_, program_) {
   fs::create_directories(folder_.files());
+  // The folder is ours alone: what an earlier studio was in the middle of when it was killed is nobody's.
+  remove_begun(folder_.path, kScratch);
+  remove_begun(folder_.files(), kHalf);
 }
 
 Desk::~Desk() { ::close(lock_); }

@@ -11,6 +11,9 @@
 
 namespace flank::internal {
 
+/// How the names of files begin that are still being received.
+inline constexpr const char* kHalf = ".half-";
+
 /// A text or bytes, and what they are.
 struct Answer {
   std::string body;

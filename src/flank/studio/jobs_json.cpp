@@ -23,8 +23,9 @@ constexpr std::chrono::milliseconds kLook{50};
 constexpr const char* kJobFile = "studio.json";
 constexpr const char* kProgress = "progress.txt";
 constexpr const char* kWheel = "wheel";
-constexpr std::size_t kMostProgress = 1 << 20;  // bytes at a time
-constexpr double kPatience = 20.0;              // seconds, for children that were told to stop
+constexpr const char* kJournal = "resume.json";  // of a command that goes on only when it is told to
+constexpr std::size_t kMostProgress = 1 << 20;   // bytes at a time
+constexpr double kPatience = 20.0;               // seconds, for children that were told to stop
 
 double now() { return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count(); }
 
@@ -55,13 +56,13 @@ Json plan_of(const std::string& result) {
   return told;
 }
 
-/// Whether the command would go on where this one ended. A wheel does so by itself, until its whole has a verdict.
+/// Whether the command would go on where this one ended, or begin again what ended before it had anything. A wheel goes on by itself, until
+/// its whole has a verdict.
 bool is_resumable(const StudioJob& job, const std::string& result) {
   if (job.state != JobState::kDone) return false;
-  if (job.command != kWheel) return fs::exists(result + "resume.json");
   const bool ended_early = job.stopping || (job.exit_code && !crash_text(*job.exit_code).empty());
-  const Json plan = ended_early ? plan_of(result) : Json();
-  return plan.is_object() && !plan.contains("pass");
+  if (job.command == kWheel) return ended_early && !plan_of(result).contains("pass");
+  return fs::exists(result + kJournal) || (ended_early && !fs::exists(result + "summary.json"));
 }
 
 }  // namespace
@@ -218,12 +219,12 @@ std::string Jobs::programs(const std::string& id) {
 
 void Jobs::begin(StudioJob& job) {
   std::vector<std::string> words = job.words;
-  if (job.resume && job.command != kWheel) words.emplace_back("--resume");
   const std::string folder = folder_of(job.id);
+  if (job.resume && fs::exists(folder + "/result/" + kJournal)) words.emplace_back("--resume");
   fs::create_directories(folder);
   job.begun = now();
   try {
-    job.child = start_child({program_, words, folder, folder + "/said.txt", folder + "/" + kProgress});
+    job.child = start_child({program_, words, folder, folder + "/said.txt", folder + "/" + kProgress, true});
     job.state = JobState::kRunning;
   } catch (const InternalError&) {
     job.exit_code = -1;

@@ -229,7 +229,7 @@ class Server {
   void take(const std::string& kind, const httplib::Request& request, httplib::Response& response,
             const httplib::ContentReader& reader) {
     const std::string folder = desk_.folder().files();
-    const std::string half = fmt::format("{}/.half-{}", folder, ++uploads_);
+    const std::string half = fmt::format("{}/{}{}", folder, kHalf, ++uploads_);
     std::ofstream stream(half, std::ios::binary);
     std::size_t size = 0;
     const bool whole = reader([&](const char* data, std::size_t more) {

@@ -219,6 +219,17 @@ void cancel_earlier(const fs::path& jobs) {
   throw InternalError("the jobs of an earlier run are still in the queue:" + all);
 }
 
+fs::path retired(const fs::path& root) { return root.string() + "-ended"; }
+
+/// All at once: an element that looks for a line still must find either that each is taken, or nothing at all. It would do a task once more
+/// whose mark is gone before the list is.
+void remove_scratch(const fs::path& root) {
+  std::error_code none;
+  fs::remove_all(retired(root));
+  fs::rename(root, retired(root), none);
+  fs::remove_all(retired(root));
+}
+
 }  // namespace
 
 std::string element_script(const std::string& list, std::size_t count, int seconds) {
@@ -226,6 +237,8 @@ std::string element_script(const std::string& list, std::size_t count, int secon
 nl='
 '
 list={0}
+cancelled=
+trap 'cancelled=1' TERM
 end=$(($(date +%s) + {2}))
 step=0
 while [ $step -lt {1} ]; do
@@ -234,6 +247,7 @@ while [ $step -lt {1} ]; do
   [ -e "$list.$k" ] && continue
   mkdir "$list.$k" 2> /dev/null || continue
   eval "$(sed -n "$((k + 1)){{p;q;}}" "$list")"
+  [ -z "$cancelled" ] || exit 143
   [ "$(date +%s)" -lt $end ] || exit 0
 done
 )sh",
@@ -246,9 +260,8 @@ std::string task_line(const std::string& program, const ChildTask& task, const s
   const std::string limit = timeout_s > 0.0 ? fmt::format("timeout -s KILL {} ", timeout_s) : "";
   const std::string file = quoted(result), part = quoted(result + ".part");
   return fmt::format(
-      "begun=$(date +%s.%N); cd {} && {}{} < /dev/null > /dev/null 2> {}; code=$?; echo \"$code $(echo \"$(date "
-      "+%s.%N) "
-      "$begun\" | awk '{{print $1 - $2}}')\" > {} && mv {} {}",
+      "begun=$(date +%s.%N); cd {} && {}{} < /dev/null > /dev/null 2> {}; code=$?; [ -n \"$cancelled\" ] || {{ echo "
+      "\"$code $(echo \"$(date +%s.%N) $begun\" | awk '{{print $1 - $2}}')\" > {} && mv {} {}; }}",
       quoted(task.folder), limit, command, quoted(task.errors), part, part, file);
 }
 
@@ -258,8 +271,9 @@ std::vector<ChildOutcome> slurm_tasks(const std::string& program, const std::vec
                                       const std::function<bool()>& cancelled) {
   const fs::path root = fs::absolute(scratch), jobs = root / "jobs";
   require_unread_below(root.string());
+  require_unread_below(retired(root).string());
   cancel_earlier(jobs);
-  fs::remove_all(root);
+  remove_scratch(root);
   std::vector<ChildOutcome> outcomes(tasks.size());
   std::vector<std::size_t> open;
   for (std::size_t k = 0; k < tasks.size(); ++k) open.push_back(k);
@@ -285,7 +299,7 @@ std::vector<ChildOutcome> slurm_tasks(const std::string& program, const std::vec
     }
     std::sort(open.begin(), open.end());
   }
-  fs::remove_all(root);
+  remove_scratch(root);
   return outcomes;
 }
 

@@ -20,7 +20,8 @@ namespace flank::internal {
 
 /// The script of an element of an array, for a POSIX shell: works through the `count` lines of the file `list`, from the
 /// one that SLURM_ARRAY_TASK_ID plus the first argument name (from 0) and round, and takes each that no other element has
-/// taken (LIST.K is made first), until `seconds` have passed when a line ends. A line may use $nl.
+/// taken (LIST.K is made first), until `seconds` have passed when a line ends. A line may use $nl. Told to end, it waits for its task, which is told
+/// so, too; a line finds that in $cancelled.
 [[nodiscard]] std::string element_script(const std::string& list, std::size_t count, int seconds);
 
 /// The line of a POSIX shell that runs a task and writes "EXIT SECONDS" into the file `result`, whole or not at all.
