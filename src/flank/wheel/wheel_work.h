@@ -1,6 +1,7 @@
 /// What the operations of a wheel hand on.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -27,6 +28,7 @@ struct WheelWork {
   FaceTargets targets;
   std::vector<WheelFace> faces;                         ///< as triangles: what directions are chosen by
   std::map<std::string, WheelOperation> finished = {};  ///< of an earlier run, by id
+  std::function<void(const std::string&)> begins = {};  ///< told the id of an operation before it is done anew
   std::string program = own_code_id();                  ///< what another build has found is found again
   /// How far the blades are from turned copies of the first one, mm. From `kEqualShare` of the tolerance on every sector has paths of its
   /// own, and `finish` holds them all.
