@@ -63,7 +63,8 @@ void write_whole(const WheelResult& result, const std::string& folder) {
 /// The whole of what finishes something, its figures and what it leaves, into the wheel's folder.
 void judge(WheelWork& work, WheelResult& result) {
   // The judge needs memory of its own, and nothing of this.
-  work.fine.reset(), work.coarse.reset(), work.all_round.reset(), work.targets.forget();
+  work.fine.reset(), work.grid.reset(), work.grid_all_round.reset(), work.coarse.reset(), work.all_round.reset(),
+      work.targets.forget();
   if (work.finish.strips.empty()) return;
   result.whole = judge_whole(work);
   result.figures = role_figures(result.roles, result.whole->verify);
