@@ -187,6 +187,27 @@ TEST(TriangleBvh, TiesAreThoseWithinTheSlackAndNeverTwice) {
   }
 }
 
+TEST(TriangleBvh, WithinALimitItFindsTheSameOrNothing) {
+  Random random(11);
+  TriangleMesh mesh;
+  for (int k = 0; k < 200; ++k) {
+    const Vec3 at = random_point(random, 20.0);
+    for (int i = 0; i < 3; ++i) mesh.vertices.push_back(at + random_point(random, 2.0));
+    mesh.triangles.push_back({3 * k, 3 * k + 1, 3 * k + 2});
+  }
+  const TriangleBvh tree(mesh);
+  for (int k = 0; k < 500; ++k) {
+    const Vec3 p = random_point(random, 30.0);
+    const BvhHit all = tree.closest(p);
+    const double distance = std::sqrt(all.squared_distance);
+    for (const double most : {0.0, 0.5 * distance, distance * (1.0 + 1e-12), 2.0 * distance + 1.0}) {
+      const BvhHit near = tree.closest_within(p, most);
+      EXPECT_EQ(near.triangle, distance <= most ? all.triangle : -1);
+      EXPECT_EQ(near.squared_distance, distance <= most ? all.squared_distance : most * most);
+    }
+  }
+}
+
 TEST(TriangleBvh, DistanceKeepsUnderScalingByPowersOfTwo) {
   const TriangleMesh mesh = soup(80, 8);
   TriangleMesh large = mesh, tiny = mesh;

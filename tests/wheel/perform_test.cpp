@@ -49,7 +49,12 @@ TEST_F(Perform, KeepsWhatTheSameProgramHasDoneOfTheSame) {
   const auto [kept, again] = run(second, "passes");
   EXPECT_FALSE(again);
   EXPECT_TRUE(kept.kept);
+  std::vector<std::string> begun;
+  second.begins = [&](const std::string& id) { begun.push_back(id); };
+  EXPECT_FALSE(run(second, "passes").second);
+  EXPECT_TRUE(begun.empty());
   EXPECT_TRUE(run(second, "other passes").second);
+  EXPECT_EQ(begun, (std::vector<std::string>{"30"}));
   second.program = "of another build";
   EXPECT_TRUE(run(second, "passes").second);
 }

@@ -47,6 +47,34 @@ TEST_F(PlanFile, DoesNotTellHowLongAnythingTook) {
   EXPECT_EQ(plan_json(other), plan_json(plan()));
 }
 
+TEST_F(PlanFile, ARunThatIsStoppedTwiceLosesNothing) {
+  WheelResult first = plan();
+  for (const char* id : {"30", "50"})
+    first.operations.push_back({.id = id, .kind = "floor", .folder = "ops", .key = "abc", .done = true});
+  write_file(file(), plan_json(first));
+  {
+    // The next run takes the first operation, and is stopped after it.
+    WheelResult second = plan();
+    second.operations.clear();
+    PlanKeeper keeper(file(), second);
+    keeper.add(first.operations[1]);
+  }
+  EXPECT_EQ(finished_operations(file()).size(), 3U);
+  WheelResult third = plan();
+  third.operations.clear();
+  PlanKeeper keeper(file(), third);
+  // What is done anew is not finished before it is done.
+  keeper.begin("30");
+  EXPECT_EQ(finished_operations(file()).count("30"), 0U);
+  EXPECT_EQ(finished_operations(file()).count("50"), 1U);
+  for (const WheelOperation& operation : first.operations)
+    if (operation.id != "50") keeper.add(operation);
+  // Of another request, and part of the plan no more.
+  keeper.end();
+  EXPECT_EQ(finished_operations(file()).count("50"), 0U);
+  EXPECT_EQ(finished_operations(file()).count("30"), 1U);
+}
+
 TEST_F(PlanFile, ADamagedPlanFinishesNothing) {
   EXPECT_TRUE(finished_operations(file()).empty());
   write_file(file(), "{\"schema\":\"openflank/plan/1\",\"operations\":[{\"id\":7}]}");

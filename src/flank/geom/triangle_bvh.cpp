@@ -103,15 +103,14 @@ struct TriangleBvh::Candidates {
 /// Top-down construction by halves across the direction of largest spread: full groups, compact patches, a bounded
 /// depth.
 struct TriangleBvh::Builder {
+  /// No more than is compared: of a few million triangles every number here is dozens of megabytes.
   struct Item {
-    Box3 box;
-    Vec3 center, normal;
-    int triangle;
+    Vec3 center;
     double key;
+    int triangle;
   };
   struct Range {
     std::size_t begin, end;
-    Box3 box;
     [[nodiscard]] std::size_t size() const { return end - begin; }
   };
 
@@ -120,12 +119,6 @@ struct TriangleBvh::Builder {
   std::vector<Item> items;
 
   static constexpr std::size_t kGroupSize = 4;
-
-  [[nodiscard]] Range range(std::size_t begin, std::size_t end) const {
-    Range r{begin, end, {}};
-    for (std::size_t i = begin; i < end; ++i) r.box.add(items[i].box);
-    return r;
-  }
 
   /// Direction in which the triangles' centres spread most.
   [[nodiscard]] Vec3 longest_axis(const Range& r) const {
@@ -152,7 +145,7 @@ struct TriangleBvh::Builder {
     std::nth_element(at(r.begin), at(middle), at(r.end), [](const Item& x, const Item& y) {
       return x.key != y.key ? x.key < y.key : x.triangle < y.triangle;
     });
-    return {range(r.begin, middle), range(middle, r.end)};
+    return {{r.begin, middle}, {middle, r.end}};
   }
 
   /// Stores up to four triangles side by side, for one operation on all. Returns -1 - index: negative numbers are
@@ -198,7 +191,8 @@ struct TriangleBvh::Builder {
           body(mesh.vertices[static_cast<std::size_t>(v)]);
     };
     Vec3 normal = Vec3::Zero();
-    for (std::size_t k = r.begin; k < r.end; ++k) normal += items[k].normal;
+    for (std::size_t k = r.begin; k < r.end; ++k)
+      normal += doubled_area(mesh, static_cast<std::size_t>(items[k].triangle));
     const double length = normal.norm();
     const Eigen::Vector3f axis = (length > 0.0 ? Vec3(normal / length) : Vec3(Vec3::UnitZ())).cast<float>();
     const Vec3 n = axis.cast<double>(), e1 = n.unitOrthogonal(), e2 = n.cross(e1);
@@ -255,16 +249,19 @@ TriangleBvh::TriangleBvh(const TriangleMesh& mesh) {
   FLANK_ASSERT(!mesh.triangles.empty());
   Box3 box;
   Builder builder{*this, mesh, {}};
+  builder.items.reserve(mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     Box3 b;
     for (int v : mesh.triangles[t]) b.add(mesh.vertices[static_cast<std::size_t>(v)]);
     box.add(b);
-    builder.items.push_back({b, b.center(), doubled_area(mesh, t), static_cast<int>(t), 0.0});
+    builder.items.push_back({b.center(), 0.0, static_cast<int>(t)});
   }
   center_ = box.center();
   radius_ = (box.high - box.low).maxCoeff();
   nodes_.reserve(mesh.triangles.size() / 6 + 1);  // a good guess: it saves moving them about
-  builder.node(builder.range(0, builder.items.size()));
+  const std::size_t groups = mesh.triangles.size() / Builder::kGroupSize + 1;
+  groups_.reserve(groups), corners_.reserve(4 * groups), triangles_.reserve(4 * groups);
+  builder.node({0, builder.items.size()});
 }
 
 void TriangleBvh::visit(const Vec3& p, const Eigen::Array3f& q, int group, Candidates& found) const {
@@ -372,6 +369,19 @@ BvhHit TriangleBvh::closest(const Vec3& p) const {
   search(p, found);
   measure(p, found);
   return found.best;
+}
+
+BvhHit TriangleBvh::closest_within(const Vec3& p, double most) const {
+  FLANK_ASSERT(!nodes_.empty() && p.allFinite());
+  FLANK_ASSERT(most >= 0.0);
+  Candidates found(float_error(p), 0.0);
+  found.limit(static_cast<float>(most * (1.0 + 1e-6)));
+  search(p, found);
+  measure(p, found);
+  if (found.best.triangle >= 0 && found.best.squared_distance <= most * most) return found.best;
+  BvhHit none;
+  none.squared_distance = most * most;
+  return none;
 }
 
 BvhHit TriangleBvh::closest(const Vec3& p, double slack, BvhTies& ties) const {

@@ -47,7 +47,10 @@ class TriangleBvh {
   /// tree's order.
   [[nodiscard]] BvhHit closest(const Vec3& p) const;
 
-  /// The same, and in `ties` every triangle (among them the nearest) whose distance is at most `slack` above the least
+  /// The same where it is no farther than `most`, which must be >= 0; else triangle is -1 and the distance `most`. Asking for less is faster.
+  [[nodiscard]] BvhHit closest_within(const Vec3& p, double most) const;
+
+  /// The nearest one as above, and in `ties` every triangle (among them the nearest) whose distance is at most `slack` above the least
   /// one; a few more may be there.
   [[nodiscard]] BvhHit closest(const Vec3& p, double slack, BvhTies& ties) const;
 

@@ -39,7 +39,8 @@ FloorChannel around(WheelWork& work) {
   out.walls = work.walls();
   for (const Target* floor : work.floor()) out.walls.push_back(floor);
   out.coarse = &work.coarse_triangles();
-  out.wheel = &work.wheel_triangles(), out.reach_mm = work.reach_mm();
+  out.distances = &work.distances();
+  out.wheel = &work.wheel_triangles(), out.wheel_distances = &work.wheel_distances(), out.reach_mm = work.reach_mm();
   return out;
 }
 

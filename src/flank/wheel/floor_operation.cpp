@@ -81,7 +81,8 @@ FloorChannel floor_channel(WheelWork& work, const SectorChannel& channel) {
   out.second = work.targets.of(with_fillets(work, channel.second, work.targets));
   out.walls = work.walls();
   out.coarse = &work.coarse_triangles();
-  out.wheel = &work.wheel_triangles(), out.reach_mm = work.reach_mm();
+  out.distances = &work.distances();
+  out.wheel = &work.wheel_triangles(), out.wheel_distances = &work.wheel_distances(), out.reach_mm = work.reach_mm();
   for (const WheelBlade& blade : work.sector.blades) {
     double foot = blade.thickness_mm;
     for (const RootFillet& fillet : blade.fillets) foot = std::max(foot, blade.thickness_mm + 2.0 * fillet.high_mm);

@@ -14,11 +14,18 @@ namespace {
 
 constexpr double kMostShare = 0.96;  ///< of the tolerance, that a face may be cut
 constexpr double kLiftFrom = 0.9, kLiftTo = 0.7;
+constexpr double kOffShare = 0.05;
 constexpr int kLifts = 4;  ///< rounds
 constexpr int kAlong = 8;  ///< poses to either side that are lifted along, less and less
 
-MotionGuard guard_of(WheelWork& work, const RadialFunction& radial, double most_mm) {
-  return {work.guard_triangles(), WheelWork::kGuardShare * work.job.tolerance_mm, radial, most_mm};
+/// What keeps off need not know the part more closely than a share of how far.
+double off_of(const WheelWork& work, double most_mm) {
+  return std::max(WheelWork::kGuardShare * work.job.tolerance_mm, -kOffShare * most_mm);
+}
+
+MotionGuard guard_of(WheelWork& work, const Path& path, const RadialFunction& radial, double most_mm) {
+  const double off = off_of(work, most_mm);
+  return {work.guard_triangles(path, radial, off), off, radial, most_mm};
 }
 
 /// Whether anything could hold the tool during a motion: the rod in its axis above the flank keeps out of the whole wheel.
@@ -57,7 +64,7 @@ std::vector<Vec3> spread(const std::vector<Vec3>& needs) {
 }  // namespace
 
 Path lifted(WheelWork& work, const Path& path) {
-  const MotionGuard guard = guard_of(work, work.tool->radial, kMostShare * work.job.tolerance_mm);
+  const MotionGuard guard = guard_of(work, path, work.tool->radial, kMostShare * work.job.tolerance_mm);
   Path out = path;
   for (Strip& strip : out.strips)
     for (int round = 0; round < kLifts; ++round) {
@@ -79,7 +86,7 @@ Path guarded(WheelWork& work, const Path& path) {
 }
 
 Path guarded(WheelWork& work, const Path& path, const RadialFunction& radial, double most_mm) {
-  const MotionGuard guard = guard_of(work, radial, most_mm);
+  const MotionGuard guard = guard_of(work, path, radial, most_mm);
   const HoldGuard hold(work, radial);
   std::vector<std::pair<std::size_t, std::size_t>> all;
   for (std::size_t s = 0; s < path.strips.size(); ++s)

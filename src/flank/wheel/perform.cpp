@@ -47,6 +47,7 @@ WheelOperation perform(const WheelWork& work, WheelOperation operation, const st
     operation.kept = true;
     return operation;
   }
+  if (work.begins) work.begins(operation.id);
   const auto begun = std::chrono::steady_clock::now();
   try {
     const Result result = make();

@@ -7,7 +7,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
 
+#include "flank/base/atomic_file.h"
 #include "flank/error.h"
 #include "flank/io/text/json_dump.h"
 #include "flank/io/text/json_input.h"
@@ -125,16 +127,47 @@ std::map<std::string, WheelOperation> finished_operations(const std::string& fil
   const nlohmann::json json = nlohmann::json::parse(read_file(file), nullptr, false);
   try {
     if (json.is_discarded() || json.at("schema") != kSchema) return out;
-    for (const auto& entry : json.at("operations")) {
-      WheelOperation operation = operation_from(entry);
-      if (operation.done) out.emplace(operation.id, std::move(operation));
-    }
+    for (const char* list : {"operations", "earlier"})
+      for (const auto& entry : json.value(list, nlohmann::json::array())) {
+        WheelOperation operation = operation_from(entry);
+        if (operation.done) out.emplace(operation.id, std::move(operation));
+      }
   } catch (const nlohmann::json::exception&) {
     // A damaged plan finishes nothing: everything is done again.
     out.clear();
   }
   return out;
 }
+
+PlanKeeper::PlanKeeper(std::string file, WheelResult& result) : file_(std::move(file)), result_(result) {
+  result_.earlier.clear();
+  for (auto& [id, operation] : finished_operations(file_)) result_.earlier.push_back(std::move(operation));
+}
+
+void PlanKeeper::begin(const std::string& id) {
+  const std::size_t before = result_.earlier.size();
+  drop(id);
+  if (result_.earlier.size() != before) write();
+}
+
+void PlanKeeper::add(WheelOperation operation) {
+  drop(operation.id);
+  result_.operations.push_back(std::move(operation));
+  std::stable_sort(result_.operations.begin(), result_.operations.end(),
+                   [](const auto& a, const auto& b) { return a.id < b.id; });
+  write();
+}
+
+void PlanKeeper::end() {
+  result_.earlier.clear();
+  write();
+}
+
+void PlanKeeper::drop(const std::string& id) {
+  std::erase_if(result_.earlier, [&](const WheelOperation& one) { return one.id == id; });
+}
+
+void PlanKeeper::write() const { write_file(file_, plan_json(result_)); }
 
 std::string plan_json(const WheelResult& result) {
   nlohmann::ordered_json json;
@@ -152,6 +185,8 @@ std::string plan_json(const WheelResult& result) {
   json["operations"] = nlohmann::ordered_json::array();
   for (const WheelOperation& operation : result.operations)
     json["operations"].push_back(operation_json(operation, result.copies));
+  for (const WheelOperation& operation : result.earlier)
+    json["earlier"].push_back(operation_json(operation, result.copies));
   if (result.whole) {
     const Acceptance acceptance = result.acceptance();
     json["pass"] = acceptance.pass();

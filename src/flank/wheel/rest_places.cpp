@@ -27,6 +27,7 @@ struct Around {
   FloorChannel channel;
   const Tool* tool;
   double tolerance = 0.0;
+  PointOptions options;              ///< of any pass: the directions that a machine holds among them
   std::vector<const Target*> sides;  ///< of the sector's blades
   double pitch = 0.0;
   int copies = 1;
@@ -53,8 +54,6 @@ struct Around {
     const double tip = tool->radial.at(0.0).r;
     if (below_a_blade(x, normal)) return "a blade of the wheel stands there";
     if (!lets_in(x, normal, tip)) return fmt::format("a corner that a tip of radius {:.2f} mm does not fit into", tip);
-    PointOptions options;
-    options.tolerance_mm = tolerance;
     const TipRoom room(channel, tool->radial, options);
     const Vec3 center = x + room.lift_mm() * normal, e = normal.unitOrthogonal(), f = normal.cross(e);
     for (int tilt = 1; tilt <= kDirectionsTilted; ++tilt)
@@ -80,7 +79,9 @@ Around around(WheelWork& work, const std::string& face) {
     for (const WheelBlade& blade : work.roles.blades) counts = counts && !holds(blade.buried, one.id);
     if (counts) names.push_back(one.id);
   }
+  out.options = work.point_options();
   out.channel.axis = work.roles.axis;
+  out.channel.wheel = &work.wheel_triangles(), out.channel.reach_mm = work.reach_mm();
   out.pitch = work.sector.pitch_rad, out.copies = work.sector.copies;
   if (holds(work.roles.hub, face)) out.sides = work.targets.of(work.sector.sides());
   const std::vector<const Target*> missing = work.missing();

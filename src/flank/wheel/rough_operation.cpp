@@ -17,11 +17,13 @@
 #include "flank/wheel/perform.h"
 #include "flank/wheel/point/floor_map.h"
 #include "flank/wheel/point/floor_passes.h"
+#include "flank/wheel/point/pass_strips.h"
 
 namespace flank::internal {
 namespace {
 
 constexpr double kAllowanceMm = 0.3;  ///< that roughing leaves
+constexpr double kChordShare = 0.05;  ///< of that, by which the path may leave the places that have room
 constexpr double kWidthShare =
     0.2;  ///< of a channel's width round the axis, that the tip's radius takes: channels run aslant
 constexpr double kTaperDeg = 5.0;
@@ -119,7 +121,7 @@ Path rough_path(WheelWork& work, const RadialFunction& radial) {
     for (int layer = 1; layer <= layers; ++layer)
       for (Strip& strip : found[static_cast<std::size_t>(layers - layer)]) {
         strip.layer = layer;
-        out.strips.push_back(std::move(strip));
+        out.strips.push_back(thinned(strip, radial.axis_length(), kChordShare * kAllowanceMm));
       }
   }
   return guarded(work, out, radial, -0.5 * kAllowanceMm - (work.equal() ? 0.0 : work.difference_mm));

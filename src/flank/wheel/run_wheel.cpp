@@ -63,7 +63,8 @@ void write_whole(const WheelResult& result, const std::string& folder) {
 /// The whole of what finishes something, its figures and what it leaves, into the wheel's folder.
 void judge(WheelWork& work, WheelResult& result) {
   // The judge needs memory of its own, and nothing of this.
-  work.fine.reset(), work.coarse.reset(), work.all_round.reset(), work.targets.forget();
+  work.fine.reset(), work.grid.reset(), work.grid_all_round.reset(), work.coarse.reset(), work.all_round.reset(),
+      work.targets.forget();
   if (work.finish.strips.empty()) return;
   result.whole = judge_whole(work);
   result.figures = role_figures(result.roles, result.whole->verify);
@@ -100,15 +101,14 @@ WheelResult run_wheel(const WheelRequest& job, const Progress& progress) {
   const WheelSector sector = make_sector(result.roles);
   result.copies = sector.copies, result.lacking = missing_blades(result.roles, sector);
   make_folder(job.folder);
-  const std::string plan = (fs::path(job.folder) / "plan.json").string();
+  const std::string file = (fs::path(job.folder) / "plan.json").string();
+  PlanKeeper plan(file, result);
   const WheelBlank blank = make_blank(job, part, result);
   WheelWork work{
-      job, result.roles, sector, part, blank, FaceTargets(part), wheel_faces(part), finished_operations(plan)};
+      job, result.roles, sector, part, blank, FaceTargets(part), wheel_faces(part), finished_operations(file)};
+  work.begins = [&](const std::string& id) { plan.begin(id); };
   const auto run = [&](WheelOperation operation) {
-    result.operations.push_back(std::move(operation));
-    std::stable_sort(result.operations.begin(), result.operations.end(),
-                     [](const auto& a, const auto& b) { return a.id < b.id; });
-    write_file(plan, plan_json(result));
+    plan.add(std::move(operation));
     // What is finished is in the folder, and the verdict on a part of it would be worth nothing.
     if (progress.stop()) throw Stopped();
   };
@@ -127,7 +127,7 @@ WheelResult run_wheel(const WheelRequest& job, const Progress& progress) {
   if (job.rough) run(rough_operation(work));
   progress.step("verify", 0.8);
   judge(work, result);
-  write_file(plan, plan_json(result));
+  plan.end();
   return result;
 }
 

@@ -48,6 +48,7 @@ struct WheelResult {
   int copies = 0;
   Vec3 up = Vec3::UnitZ();  ///< along the axis: to the spindle where the wheel is clamped
   std::vector<WheelOperation> operations;
+  std::vector<WheelOperation> earlier;  ///< that an earlier run has finished, and this one has not come to yet
   std::vector<RoleFigures> figures;
   std::vector<std::string> notes;
   std::vector<RestPlace> rest;        ///< largest first

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "flank/geom/tessellate.h"
 #include "flank/io/face_names.h"
 #include "flank/path/turning.h"
+#include "flank/wheel/swept_boxes.h"
 
 namespace flank::internal {
 namespace {
@@ -75,10 +77,54 @@ void add_targets(WheelWork& work, const std::vector<TurnedFaces>& missing, std::
       out.push_back(target);
 }
 
-void append_turned(TriangleMesh mesh, const WheelWork& work, int turns, TriangleMesh& all) {
-  const Eigen::Isometry3d turn = work.roles.axis.turn(turns * work.sector.pitch_rad);
-  for (Vec3& vertex : mesh.vertices) vertex = turn * vertex;
+void append_turned(const TriangleMesh& mesh, const WheelWork& work, int turns, TriangleMesh& all) {
+  const std::size_t first = all.vertices.size();
   flank::internal::append(all, mesh);
+  if (turns == 0) return;
+  const Eigen::Isometry3d turn = work.roles.axis.turn(turns * work.sector.pitch_rad);
+  for (std::size_t k = first; k < all.vertices.size(); ++k) all.vertices[k] = turn * all.vertices[k];
+}
+
+/// Cells that a wheel of any size has about as many of.
+std::unique_ptr<DistanceGrid> grid_of(const WheelWork& work, const TriangleBvh& triangles) {
+  constexpr double kShare = 1.0 / 400.0, kFinestMm = 0.1, kCoarsestMm = 1.0, kBeyondShare = 0.15;
+  const double reach = work.reach_mm();
+  const int all = all_missing(work).empty() ? 1 : work.roles.count;
+  Box3 box;
+  for (const WheelFace& face : work.faces)
+    for (int turns = 0; turns < all; ++turns) {
+      const Eigen::Isometry3d turn = work.roles.axis.turn(turns * work.sector.pitch_rad);
+      for (const Vec3& p : face.mesh.vertices) box.add(turn * p);
+    }
+  // The tools stand above what they machine.
+  return std::make_unique<DistanceGrid>(triangles, box, kBeyondShare * reach,
+                                        std::clamp(kShare * reach, kFinestMm, kCoarsestMm));
+}
+
+/// Faces of the part and the pitches that they are turned by, of those that boxes may meet.
+std::set<std::pair<int, int>> near_faces(const WheelWork& work, const SweptBoxes& swept) {
+  const Part& part = work.part;
+  const std::vector<TurnedFaces> missing = missing_faces(work);
+  std::set<std::pair<int, int>> out;
+  const auto add_if_near = [&](int index, int turns) {
+    constexpr double kOffMm = 0.5;  // more than triangles are off their faces
+    const Eigen::Isometry3d turn = work.roles.axis.turn(turns * work.sector.pitch_rad);
+    Box3 box;
+    for (const WheelFace& face : work.faces)
+      if (face.index == index)
+        for (const Vec3& p : face.mesh.vertices) box.add(turn * p);
+    box.low.array() -= kOffMm, box.high.array() += kOffMm;
+    // What has no triangles has no box either.
+    if (box.empty() || swept.meet(box)) out.insert({index, turns});
+  };
+  for (int k = 0; k < part.face_count(); ++k) {
+    if (part.is_left_out(k) || holds(work.roles.debris, part.face_id(k))) continue;
+    add_if_near(k, 0);
+    for (const TurnedFaces& more : missing)
+      if (names_face(more.faces, part.face_id(k))) add_if_near(k, more.turns);
+  }
+  if (out.empty() && part.face_count() > 0) out.insert({0, 0});
+  return out;
 }
 
 }  // namespace
@@ -147,6 +193,17 @@ const TriangleBvh& WheelWork::coarse_triangles() {
   return coarse.emplace(all);
 }
 
+const DistanceGrid& WheelWork::distances() {
+  if (!grid) grid = grid_of(*this, coarse_triangles());
+  return *grid;
+}
+
+const DistanceGrid& WheelWork::wheel_distances() {
+  if (all_missing(*this).empty()) return distances();
+  if (!grid_all_round) grid_all_round = grid_of(*this, wheel_triangles());
+  return *grid_all_round;
+}
+
 const TriangleBvh& WheelWork::wheel_triangles() {
   const std::vector<TurnedFaces> lacking = all_missing(*this);
   if (lacking.empty()) return coarse_triangles();
@@ -172,23 +229,29 @@ double WheelWork::reach_mm() const {
   return std::hypot(2.0 * radius, high - low);
 }
 
-const TriangleBvh& WheelWork::guard_triangles() {
-  if (fine) return *fine;
+const TriangleBvh& WheelWork::guard_triangles(const Path& path, const RadialFunction& radial, double off_mm) {
+  // No more than this path asks for: what an earlier one has met must not decide anything here, for it may not be asked in another run.
+  std::set<std::pair<int, int>> wanted = near_faces(*this, SweptBoxes(path, radial));
+  if (fine && wanted == fine->faces && off_mm == fine->off_mm) return fine->tree;
+  fine.reset();
   std::vector<int> counted;
-  for (int k = 0; k < part.face_count(); ++k)
-    if (!part.is_left_out(k) && !holds(roles.debris, part.face_id(k))) counted.push_back(k);
+  for (const auto& [face, turns] : wanted)
+    if (counted.empty() || counted.back() != face) counted.push_back(face);
   std::vector<TriangleMesh> meshes(counted.size());
   parallel_for(meshes.size(), [&](std::size_t k) {
-    const TessellationOptions options{.chord_mm = 0.5 * kGuardShare * job.tolerance_mm, .most_steps = kMostSteps};
+    const TessellationOptions options{.chord_mm = 0.5 * off_mm, .most_steps = kMostSteps};
     meshes[k] = part.is_mesh() ? extract_mesh(part, {counted[k]})
                                : tessellate(part.faces[static_cast<std::size_t>(counted[k])], options).mesh;
   });
   TriangleMesh all;
-  for (const TriangleMesh& mesh : meshes) flank::internal::append(all, mesh);
-  for (const TurnedFaces& more : missing_faces(*this))
-    for (std::size_t k = 0; k < counted.size(); ++k)
-      if (names_face(more.faces, part.face_id(counted[k]))) append_turned(meshes[k], *this, more.turns, all);
-  return fine.emplace(all);
+  for (std::size_t k = 0; k < counted.size(); ++k) {
+    // There are millions of them: none is held twice.
+    const TriangleMesh mesh = std::exchange(meshes[k], {});
+    for (auto at = wanted.lower_bound({counted[k], std::numeric_limits<int>::min()});
+         at != wanted.end() && at->first == counted[k]; ++at)
+      append_turned(mesh, *this, at->second, all);
+  }
+  return fine.emplace(GuardTriangles{std::move(wanted), off_mm, TriangleBvh(all)}).tree;
 }
 
 }  // namespace flank::internal

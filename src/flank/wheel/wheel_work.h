@@ -1,9 +1,13 @@
 /// What the operations of a wheel hand on.
 #pragma once
 
+#include <functional>
 #include <map>
+#include <memory>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "flank/base/own_code.h"
@@ -18,6 +22,13 @@
 
 namespace flank::internal {
 
+/// Triangles that a path is held against.
+struct GuardTriangles {
+  std::set<std::pair<int, int>> faces;  ///< of the part, and the pitches that they are turned by
+  double off_mm = 0.0;
+  TriangleBvh tree;
+};
+
 struct WheelWork {
   const WheelRequest& job;
   const WheelRoles& roles;
@@ -27,6 +38,7 @@ struct WheelWork {
   FaceTargets targets;
   std::vector<WheelFace> faces;                         ///< as triangles: what directions are chosen by
   std::map<std::string, WheelOperation> finished = {};  ///< of an earlier run, by id
+  std::function<void(const std::string&)> begins = {};  ///< told the id of an operation before it is done anew
   std::string program = own_code_id();                  ///< what another build has found is found again
   /// How far the blades are from turned copies of the first one, mm. From `kEqualShare` of the tolerance on every sector has paths of its
   /// own, and `finish` holds them all.
@@ -35,17 +47,22 @@ struct WheelWork {
   std::optional<Tool> rough_tool = {};  ///< T2: roughs, where it is another one
   Path finish = {};                     ///< strips that finish something, in their order
   std::vector<std::string> notes = {};
-  std::optional<TriangleBvh> coarse = {}, all_round = {},
-                             fine = {};  ///< of all faces that a tool may meet, once they are asked for
+  std::optional<TriangleBvh> coarse = {},
+                             all_round = {};  ///< of all faces that a tool may meet, once they are asked for
+  std::unique_ptr<DistanceGrid> grid = {}, grid_all_round = {};  ///< of `coarse` and `all_round`
+  std::optional<GuardTriangles> fine = {};                       ///< of those that the last path may meet
 
-  /// Triangles by which directions are looked for, and those by which paths are held against the part: they are beside the faces by
-  /// `kGuardShare` of the tolerance at most.
+  /// Triangles by which directions are looked for, and those by which a path is held against the part: they are beside the faces by
+  /// `off_mm` at most, and so many that faces that the path comes nowhere near to are left out.
   [[nodiscard]] const TriangleBvh& coarse_triangles();
-  [[nodiscard]] const TriangleBvh& guard_triangles();
+  [[nodiscard]] const TriangleBvh& guard_triangles(const Path& path, const RadialFunction& radial, double off_mm);
+  /// To coarse_triangles() and to wheel_triangles().
+  [[nodiscard]] const DistanceGrid& distances();
+  [[nodiscard]] const DistanceGrid& wheel_distances();
   /// The whole wheel, with all blades that the part lacks, as the first of these: what stands in the way of an axis far above the flank.
   [[nodiscard]] const TriangleBvh& wheel_triangles();
-  [[nodiscard]] double reach_mm() const;  ///< no two places of the wheel are farther from each other
-  static constexpr double kGuardShare = 0.02;
+  [[nodiscard]] double reach_mm() const;       ///< no two places of the wheel are farther from each other
+  static constexpr double kGuardShare = 0.02;  ///< of the tolerance: `off_mm` of finishing paths
   static constexpr double kEqualShare = 0.1;
   [[nodiscard]] bool equal() const { return difference_mm <= kEqualShare * job.tolerance_mm; }
   [[nodiscard]] double sectors_of_hub() const { return flank::internal::sectors_of_hub(roles, faces); }

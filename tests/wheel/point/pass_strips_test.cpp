@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "flank/path/turning.h"
 
 namespace flank::internal {
@@ -63,6 +66,39 @@ TEST(PassStrips, AxesThatHaveNoRoomStay) {
   Strip strip = kicked();
   steady(strip, TipRoom(nothing, radial, options), radial, options);
   for (std::size_t k = 0; k < strip.poses.size(); ++k) EXPECT_EQ(strip.poses[k].axis, kicked().poses[k].axis);
+}
+
+/// An arc with a kink, in steps that are far shorter than joining straight asks for.
+TEST(PassStrips, ThinnedStripsStayBesideWhatTheyWere) {
+  constexpr double kChord = 0.015, kUp = 10.0;
+  Strip strip{.id = 4, .kind = "rough", .face = "F1", .poses = {}};
+  strip.layer = 3;
+  for (int k = 0; k <= 300; ++k) {
+    const double a = 0.005 * k;
+    strip.poses.push_back({Vec3(30.0 * std::sin(a), 30.0 * std::cos(a), k > 150 ? 0.05 * (k - 150) : 0.0),
+                           Vec3(0.2 * std::sin(2.0 * a), 0.1, 1.0).normalized()});
+  }
+  const Strip thin = thinned(strip, kUp, kChord);
+  EXPECT_EQ(thin.id, 4);
+  EXPECT_EQ(thin.layer, 3);
+  EXPECT_EQ(thin.poses.front().tip, strip.poses.front().tip);
+  EXPECT_EQ(thin.poses.back().tip, strip.poses.back().tip);
+  EXPECT_LT(thin.poses.size(), strip.poses.size() / 4);
+  for (const Pose& pose : strip.poses) {
+    double least = 1e300;
+    for (std::size_t k = 0; k + 1 < thin.poses.size(); ++k) {
+      // The nearest place of the chord, of tip and upper end together.
+      const Pose &a = thin.poses[k], &b = thin.poses[k + 1];
+      const Vec3 tip = b.tip - a.tip, top = b.at(kUp) - a.at(kUp), here = pose.tip - a.tip,
+                 above = pose.at(kUp) - a.at(kUp);
+      const double share = (here.dot(tip) + above.dot(top)) / (tip.squaredNorm() + top.squaredNorm()),
+                   at = std::clamp(share, 0.0, 1.0);
+      least = std::min(least, std::max((here - at * tip).norm(), (above - at * top).norm()));
+    }
+    EXPECT_LE(least, kChord);
+  }
+  strip.poses.resize(2);
+  EXPECT_EQ(thinned(strip, kUp, kChord).poses.size(), 2U);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "flank/feature/wheel_axis.h"
+#include "flank/geom/distance_grid.h"
 #include "flank/geom/triangle_bvh.h"
 #include "flank/target.h"
 #include "flank/wheel/point/tilt_cone.h"
@@ -20,6 +21,8 @@ struct FloorChannel {
   std::vector<const Target*> walls;  ///< all that the tool keeps out of besides the floor: sides, edges, tips, fillets
   const TriangleBvh* coarse =
       nullptr;  ///< floor and walls as triangles: where directions are looked for; null: no such search
+  /// Distances to `coarse` and to `wheel`, faster and not as exact; null: the triangles are asked.
+  const DistanceGrid *distances = nullptr, *wheel_distances = nullptr;
   /// The whole wheel as triangles: above the flank the tool's axis keeps out of it. Null: nothing is asked there.
   const TriangleBvh* wheel = nullptr;
   double reach_mm = 0.0;  ///< no two places of the wheel are farther from each other

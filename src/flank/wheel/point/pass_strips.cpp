@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "flank/base/parallel.h"
 #include "flank/path/turning.h"
 
 namespace flank::internal {
@@ -71,7 +72,8 @@ void steady(Strip& strip, const TipRoom& room, const RadialFunction& radial, con
 void add_strips(std::vector<PoseRow> rows, const TipRoom& room, const RadialFunction& radial,
                 const PointOptions& options, const std::string& kind, const std::string& face,
                 std::vector<Strip>& out) {
-  for (std::size_t j = 0; j < rows.size(); ++j) {
+  std::vector<std::vector<Strip>> found(rows.size());
+  parallel_for(rows.size(), [&](std::size_t j) {
     if (j % 2 == 1) std::reverse(rows[j].begin(), rows[j].end());
     Strip strip{.id = 1, .kind = kind, .face = face, .poses = {}};
     rows[j].emplace_back();
@@ -81,10 +83,42 @@ void add_strips(std::vector<PoseRow> rows, const TipRoom& room, const RadialFunc
         continue;
       }
       steady(strip, room, radial, options);
-      add_strip(strip, radial, options, out);
+      add_strip(strip, radial, options, found[j]);
       strip.poses.clear();
     }
+  });
+  for (std::vector<Strip>& row : found)
+    for (Strip& strip : row) out.push_back(std::move(strip));
+}
+
+Strip thinned(const Strip& strip, double axis_length, double chord_mm) {
+  const std::vector<Pose>& poses = strip.poses;
+  Strip out = strip;
+  if (poses.size() < kFewestPoses) return out;
+  out.poses.assign(1, poses.front());
+  // What is left to look at, the next piece last: where a piece is too far beside its chord it is cut at its farthest pose.
+  std::vector<std::size_t> ends{poses.size() - 1};
+  for (std::size_t from = 0; !ends.empty();) {
+    const std::size_t to = ends.back();
+    const Vec3 tip = poses[to].tip - poses[from].tip, top = poses[to].at(axis_length) - poses[from].at(axis_length);
+    const double whole = tip.squaredNorm() + top.squaredNorm();
+    double most = chord_mm;
+    std::size_t farthest = 0;
+    for (std::size_t k = from + 1; k < to; ++k) {
+      const Vec3 here = poses[k].tip - poses[from].tip, above = poses[k].at(axis_length) - poses[from].at(axis_length);
+      const double t = whole > 0.0 ? std::clamp((here.dot(tip) + above.dot(top)) / whole, 0.0, 1.0) : 0.0;
+      const double off = std::max((here - t * tip).norm(), (above - t * top).norm());
+      if (off > most) most = off, farthest = k;
+    }
+    if (farthest > 0) {
+      ends.push_back(farthest);
+      continue;
+    }
+    out.poses.push_back(poses[to]);
+    from = to;
+    ends.pop_back();
   }
+  return out;
 }
 
 }  // namespace flank::internal

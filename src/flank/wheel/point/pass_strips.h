@@ -26,4 +26,7 @@ void steady(Strip& strip, const TipRoom& room, const RadialFunction& radial, con
 void add_strips(std::vector<PoseRow> rows, const TipRoom& room, const RadialFunction& radial,
                 const PointOptions& options, const std::string& kind, const std::string& face, std::vector<Strip>& out);
 
+/// With no more poses than joining them straight asks for: tip and upper end of the axis stay within `chord_mm` of where they were.
+[[nodiscard]] Strip thinned(const Strip& strip, double axis_length, double chord_mm);
+
 }  // namespace flank::internal

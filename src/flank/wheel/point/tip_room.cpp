@@ -9,11 +9,14 @@
 namespace flank::internal {
 namespace {
 
-constexpr double kHeightShare = 0.1;     ///< of the tolerance: so far above what it touches the sphere stays
-constexpr double kHorizonMm = 1.0;       ///< farther rooms are not told apart
-constexpr double kStepMm = 0.4;          ///< along the axis, at least
+constexpr double kHeightShare = 0.1;  ///< of the tolerance: so far above what it touches the sphere stays
+constexpr double kHorizonMm = 1.0;    ///< farther rooms are not told apart
+constexpr double kStepMm = 0.4;       ///< along the axis, at least
+constexpr double kSlowest =
+    0.7;  ///< millimetres along the axis, at least, that a millimetre of room lasts: cones of up to 20 degrees
 constexpr double kGapPerMm = 0.08;       ///< of the axis: a direction is to leave so much more room higher up
 constexpr double kTrianglesOffMm = 0.1;  ///< more than triangles are off their faces
+constexpr double kRodLookMm = 8.0;       ///< so far the wheel is looked for beside the rod
 constexpr int kDrops = 12;
 constexpr double kNotHeldMm = -10.0;  ///< room of a direction that no machine holds
 
@@ -68,8 +71,18 @@ bool TipRoom::tip_is_free(const Vec3& center) const {
 double TipRoom::rod_room(const Pose& pose, double most) const {
   double least = most;
   if (channel_.wheel == nullptr) return least;
+  // The rod is long and the wheel seldom near: how far exactly is not asked beyond a few millimetres.
+  const double look = rod_mm_ + std::max(most, kRodLookMm);
   for (double s = length_; s <= length_ + channel_.reach_mm;) {
-    const double gap = std::sqrt(channel_.wheel->closest(pose.at(s)).squared_distance) - rod_mm_;
+    const Vec3 p = pose.at(s);
+    if (channel_.wheel_distances != nullptr) {
+      const double gap = channel_.wheel_distances->at_least(p) - rod_mm_;
+      if (gap > kStepMm) {
+        s += gap;
+        continue;
+      }
+    }
+    const double gap = std::sqrt(channel_.wheel->closest_within(p, look).squared_distance) - rod_mm_;
     least = std::min(least, gap);
     if (least < 0.0) return least;
     s += std::max(kStepMm, gap);
@@ -82,10 +95,20 @@ double TipRoom::room(const Pose& pose, double up_to) const {
   for (double s = 0.0; s <= up_to;) {
     const double r = radius(s);
     const Vec3 p = pose.at(s);
+    if (s > 0.0 && channel_.distances != nullptr) {
+      const double gap = channel_.distances->at_least(p) - r - kTrianglesOffMm;
+      if (gap > kStepMm && gap >= -enter_mm_) {
+        least = std::min(least, gap);
+        s += std::max(kStepMm, 0.5 * gap);
+        continue;
+      }
+    }
     if (s > 0.0 && channel_.coarse != nullptr) {
       const double gap = std::sqrt(channel_.coarse->closest(p).squared_distance) - r - kTrianglesOffMm;
-      if (gap > 0.0) {
+      // What is to keep off by more than triangles are off their faces is settled by them, too.
+      if (gap > 0.0 || gap + 2.0 * kTrianglesOffMm < -enter_mm_) {
         least = std::min(least, gap);
+        if (least < -enter_mm_) return least;
         s += std::max(kStepMm, 0.5 * gap);
         continue;
       }
@@ -110,10 +133,14 @@ double TipRoom::rough_room(const Pose& pose, double least) const {
   double best = kEnoughMm;
   for (double s = kStepMm; s <= above_;) {
     const double r = radius(s), wanted = std::min(kEnoughMm, kGapPerMm * s);
-    const double gap = std::sqrt(channel_.coarse->closest(pose.at(s)).squared_distance) - r;
+    const Vec3 p = pose.at(s);
+    const double gap = (channel_.distances != nullptr ? channel_.distances->at(p)
+                                                      : std::sqrt(channel_.coarse->closest(p).squared_distance)) -
+                       r;
     best = std::min(best, gap + kEnoughMm - wanted);
     if (best <= least) return best;
-    s += std::max(kStepMm, 0.6 * (gap - wanted));
+    // Nothing that is farther than the least one found so far can be below it on the next so many millimetres.
+    s += std::max(kStepMm, kSlowest * (gap + kEnoughMm - wanted - best));
   }
   // A rod with room lacks nothing.
   const double rod = rod_room(pose, kEnoughMm);

@@ -42,7 +42,7 @@ class TipRoom {
   [[nodiscard]] double radius(double s) const { return radial_.at(s < length_ ? s : length_).r; }
   const FloorChannel& channel_;
   const RadialFunction& radial_;
-  /// How far the rod in the axis above the flank is from the wheel, mm, at least, at most `most`; exact below that.
+  /// How far the rod in the axis above the flank is from the wheel, mm; exact where it is inside, else any number from 0 to `most`.
   [[nodiscard]] double rod_room(const Pose& pose, double most) const;
   double tip_mm_, lift_mm_, enter_mm_, length_, above_, rod_mm_;
   TiltCone held_;
