@@ -17,25 +17,41 @@ namespace {
 constexpr int kTable = 256;
 /// Least 1 - r'^2: |r'| >= 1 is no tool, but a fit may pass through it.
 constexpr double kLeastCosineSquared = 1e-6;
+/// Poses that are looked at together: many enough that a block far off saves time, few enough that it is far off.
+constexpr std::size_t kBlock = 16;
 
 }  // namespace
+
+SweptEstimate::Track SweptEstimate::make_track(const RuledMotion& motion, int poses) {
+  Track track;
+  for (int i = 0; i < poses; ++i) {
+    track.poses.push_back(motion.pose(static_cast<double>(i) / (poses - 1)));
+    const Pose& pose = track.poses.back();
+    for (std::size_t c = 0; c < 3; ++c) {
+      track.columns[c].push_back(pose.tip[static_cast<Eigen::Index>(c)]);
+      track.columns[3 + c].push_back(pose.axis[static_cast<Eigen::Index>(c)]);
+    }
+  }
+  // The farthest that a point of the axis moves between two poses is at an end.
+  const auto travel = [&](std::size_t i, std::size_t k) {
+    double most = 0.0;
+    for (const double s : {0.0, motion.axis_length})
+      most = std::max(most, (track.poses[i].at(s) - track.poses[k].at(s)).norm());
+    return most;
+  };
+  for (std::size_t first = 0; first < track.poses.size(); first += kBlock) {
+    const std::size_t last = std::min(first + kBlock, track.poses.size()), middle = (first + last) / 2;
+    double& reach = track.reach.emplace_back(0.0);
+    for (std::size_t i = first; i < last; ++i) reach = std::max(reach, travel(i, middle));
+  }
+  for (std::size_t i = 0; i + 1 < track.poses.size(); ++i) track.stride = std::max(track.stride, travel(i, i + 1));
+  return track;
+}
 
 SweptEstimate::SweptEstimate(const std::vector<RuledMotion>& motions, const RadialFunction& radial, int poses)
     : refiner_(motions, radial), axis_length_(radial.axis_length()), per_length_(kTable / radial.axis_length()) {
   FLANK_ASSERT(poses >= 2);
-  for (const RuledMotion& motion : motions) {
-    std::vector<Pose>& table = poses_.emplace_back();
-    for (int i = 0; i < poses; ++i) table.push_back(motion.pose(static_cast<double>(i) / (poses - 1)));
-    double& stride = stride_.emplace_back(0.0);
-    std::vector<double>& travel = travel_.emplace_back(1, 0.0);
-    for (std::size_t i = 0; i + 1 < table.size(); ++i) {
-      // The farthest that a point of the axis moves between two poses joined by straight lines is at an end.
-      double step = 0.0;
-      for (const double s : {0.0, axis_length_}) step = std::max(step, (table[i + 1].at(s) - table[i].at(s)).norm());
-      stride = std::max(stride, step);
-      travel.push_back(travel.back() + step);
-    }
-  }
+  for (const RuledMotion& motion : motions) tracks_.push_back(make_track(motion, poses));
   table_.resize(kTable + 1);
   for (int k = 0; k <= kTable; ++k) {
     const RadialJet jet = radial.at(axis_length_ * k / kTable);
@@ -47,6 +63,9 @@ SweptEstimate::SweptEstimate(const std::vector<RuledMotion>& motions, const Radi
     before.more_radius = row.radius - before.radius;
     before.more_slope = row.slope - before.slope;
   }
+  for (const Row& row : table_) steepest_ = std::max(steepest_, std::abs(row.more_radius) * per_length_);
+  steepest_ = std::min(steepest_, 1.0);
+  cosine_ = std::sqrt(1.0 - steepest_ * steepest_);
   least_radius_ = radial.smallest();
   largest_radius_ = radial.largest();
   if (!std::isnan(least_radius_)) return;
@@ -58,7 +77,7 @@ SweptEstimate::SweptEstimate(const std::vector<RuledMotion>& motions, const Radi
   }
 }
 
-double SweptEstimate::at_pose(const Pose& pose, const Vec3& x) const {
+double SweptEstimate::at_pose(const Pose& pose, const Vec3& x, double most) const {
   const Vec3 q = x - pose.tip;
   const double z = q.dot(pose.axis);
   if (std::isnan(z)) return z;  // of a pose without a value: no place of the table
@@ -68,7 +87,8 @@ double SweptEstimate::at_pose(const Pose& pose, const Vec3& x) const {
   // several such spheres. f is off by the square of the last step over twice rho.
   constexpr double kLeastSlope = 0.3, kSettled = 0.25;  // no unit; intervals of the table
   constexpr int kMostSteps = 4;
-  double s = std::clamp(z, 0.0, axis_length_), share = 0.0;
+  const double beside = std::clamp(z, 0.0, axis_length_);
+  double s = beside, share = 0.0;
   const Row* row = nullptr;
   const auto look_up = [&] {
     const double place = s * per_length_;
@@ -76,6 +96,10 @@ double SweptEstimate::at_pose(const Pose& pose, const Vec3& x) const {
     share = place - k;
     row = table_.data() + k;
   };
+  look_up();
+  // The radius changes by no more than the steepest slope: no sphere is nearer than this.
+  if (cosine_ * rho + steepest_ * std::abs(z - beside) - (row->radius + share * row->more_radius) > most)
+    return std::numeric_limits<double>::infinity();
   double last = 1.0;
   for (int k = 0; k < kMostSteps && !(std::abs(last) < kSettled); ++k) {
     look_up();
@@ -106,94 +130,98 @@ double SweptEstimate::floor_at(const Pose& pose, const Vec3& x) const {
   return std::sqrt(std::max(0.0, q.squaredNorm() - z * z) + off * off) - largest_radius_;
 }
 
-std::size_t SweptEstimate::next_pose(std::size_t motion, std::size_t at, double spare) const {
-  // f is 1-Lipschitz in the travel of the axis. at_pose is f but for what its two steps in s leave: a tenth is kept for
-  // it.
-  constexpr double kSure = 0.9;
-  const std::vector<double>& travel = travel_[motion];
-  // A pose without a value says nothing of the others.
-  if (std::isnan(spare)) return at + 1;
-  const double until = travel[at] + kSure * spare;
-  // Most jumps are short where the tool is near: a few steps first, before the rest is halved.
-  constexpr std::size_t kShort = 4;
-  const std::size_t near = std::min(travel.size(), at + 1 + kShort);
-  for (std::size_t i = at + 1; i < near; ++i)
-    if (until < travel[i]) return i;
-  const auto first = travel.begin() + static_cast<std::ptrdiff_t>(near);
-  return static_cast<std::size_t>(std::upper_bound(first, travel.end(), until) - travel.begin());
+void SweptEstimate::squares(const Track& track, std::size_t block, const Vec3& x, double* out) const {
+  const std::size_t first = block * kBlock, count = std::min(kBlock, track.poses.size() - first);
+  const auto& [px, py, pz, ux, uy, uz] = track.columns;
+  const double length = axis_length_;
+  // One loop without a branch or a call, which the compiler turns into vectors.
+  for (std::size_t k = 0, i = first; k < count; ++k, ++i) {
+    const double qx = x.x() - px[i], qy = x.y() - py[i], qz = x.z() - pz[i];
+    const double z = qx * ux[i] + qy * uy[i] + qz * uz[i];
+    const double inside = z < 0.0 ? 0.0 : (z > length ? length : z), off = z - inside;
+    out[k] = qx * qx + qy * qy + qz * qz - z * z + off * off;
+  }
 }
 
-SweptEstimate::Tabulated SweptEstimate::nearest_pose(std::size_t motion, const Vec3& x, const Tabulated& bound) const {
-  const std::vector<Pose>& poses = poses_[motion];
-  Tabulated best = bound;
-  // From pose to pose f changes by no more than the axis travels: far poses are jumped over.
-  for (std::size_t i = 0; i < poses.size();) {
-    double f = floor_at(poses[i], x);
-    if (!(f >= best.f)) {
-      f = at_pose(poses[i], x);
-      if (f < best.f) best = {i, f};
+template <class Visit>
+void SweptEstimate::visit_near(const Track& track, const Vec3& x, const double& most, const Visit& visit) const {
+  std::array<double, kBlock> square;
+  for (std::size_t block = 0; block < track.reach.size(); ++block) {
+    const std::size_t first = block * kBlock, last = std::min(first + kBlock, track.poses.size());
+    // No point of the axis is nearer than this; not a number: nothing is known.
+    if (floor_at(track.poses[(first + last) / 2], x) - track.reach[block] > most) continue;
+    squares(track, block, x, square.data());
+    for (std::size_t i = first; i < last; ++i) {
+      const double near = most + largest_radius_;
+      if (near > 0.0 && square[i - first] > near * near) continue;
+      visit(i);
     }
-    i = next_pose(motion, i, f - best.f);
   }
+}
+
+SweptEstimate::Tabulated SweptEstimate::nearest_pose(const Track& track, const Vec3& x, const Tabulated& bound) const {
+  Tabulated best = bound;
+  visit_near(track, x, best.f, [&](std::size_t i) {
+    const double f = at_pose(track.poses[i], x, best.f);
+    if (f < best.f) best = {i, f};
+  });
   return best;
 }
 
-SweptEstimate::Tabulated SweptEstimate::nearest_pose(std::size_t motion, const Vec3& x) const {
-  const std::vector<Pose>& poses = poses_[motion];
-  // Every twelfth pose first: a low value early lets the walk take long jumps.
-  constexpr std::size_t kCoarse = 12;
-  Tabulated best;
-  for (std::size_t i = kCoarse / 2; i < poses.size(); i += kCoarse) {
-    if (floor_at(poses[i], x) >= best.f) continue;
-    const double f = at_pose(poses[i], x);
-    if (f < best.f) best = {i, f};
+SweptEstimate::Tabulated SweptEstimate::nearest_pose(const Track& track, const Vec3& x) const {
+  // The middle of the block that seems nearest: a low value early leaves out most of the others.
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t at = 0;
+  for (std::size_t block = 0; block < track.reach.size(); ++block) {
+    const std::size_t first = block * kBlock, i = (first + std::min(first + kBlock, track.poses.size())) / 2;
+    const double floor = floor_at(track.poses[i], x);
+    if (floor < least) least = floor, at = i;
   }
-  return nearest_pose(motion, x, best);
+  const double f = at_pose(track.poses[at], x);
+  const Tabulated best = f < std::numeric_limits<double>::infinity() ? Tabulated{at, f} : Tabulated{};
+  return nearest_pose(track, x, best);
 }
 
 SweptEstimate::Tabulated SweptEstimate::at_hint(const SweptContact& hint, const Vec3& x) const {
   const auto at = static_cast<std::size_t>(std::lround(std::clamp(hint.t, 0.0, 1.0) / spacing()));
-  return {at, at_pose(poses_[static_cast<std::size_t>(hint.motion)][at], x)};
+  return {at, at_pose(tracks_[static_cast<std::size_t>(hint.motion)].poses[at], x)};
 }
 
-double SweptEstimate::slack(std::size_t motion) const {
+double SweptEstimate::slack(const Track& track) const {
   // A sphere of radius r that passes x half-way between two poses comes nearer by about stride^2 / (8 r).
   // A radial function that is no tool (r <= 0 somewhere) must not make it negative: then nothing would be nearest.
   constexpr double kLeastRadiusShare = 1e-3;
   const double radius = std::max(least_radius_, kLeastRadiusShare * axis_length_);
-  return stride_[motion] * stride_[motion] / (8.0 * radius);
+  return track.stride * track.stride / (8.0 * radius);
 }
 
 double SweptEstimate::bound(const Vec3& x, const SweptContact& hint) const {
-  if (hint.motion >= 0) return at_hint(hint, x).f + slack(static_cast<std::size_t>(hint.motion));
+  if (hint.motion >= 0) return at_hint(hint, x).f + slack(tracks_[static_cast<std::size_t>(hint.motion)]);
   double bound = std::numeric_limits<double>::infinity();
-  for (std::size_t m = 0; m < poses_.size(); ++m) bound = std::min(bound, nearest_pose(m, x).f + slack(m));
+  for (const Track& track : tracks_) bound = std::min(bound, nearest_pose(track, x).f + slack(track));
   return bound;
 }
 
 void SweptEstimate::places(const Vec3& x, const SweptContact& hint, std::vector<SweptContact>& places) const {
   places.clear();
   double bound_f = bound(x, hint);
-  for (std::size_t m = 0; m < poses_.size(); ++m) {
-    std::size_t last = poses_[m].size();
-    for (std::size_t i = 0; i < poses_[m].size();) {
-      double f = floor_at(poses_[m][i], x);
-      if (f <= bound_f) f = at_pose(poses_[m][i], x);
-      if (f <= bound_f) {
-        // A lower value lowers the bound for what follows; what came before it is sifted at the end.
-        bound_f = std::min(bound_f, f + slack(m));
-        const bool same_run = last + 1 == i && !places.empty() && places.back().motion == static_cast<int>(m);
-        if (!same_run) places.emplace_back();
-        if (!same_run || f < places.back().f) {
-          places.back().motion = static_cast<int>(m);
-          places.back().t = static_cast<double>(i) * spacing();
-          places.back().f = f;
-        }
-        last = i++;
-        continue;
+  for (std::size_t m = 0; m < tracks_.size(); ++m) {
+    const Track& track = tracks_[m];
+    std::size_t last = track.poses.size();
+    visit_near(track, x, bound_f, [&](std::size_t i) {
+      const double f = at_pose(track.poses[i], x, bound_f);
+      if (!(f <= bound_f)) return;
+      // A lower value lowers the bound for what follows; what came before it is sifted at the end.
+      bound_f = std::min(bound_f, f + slack(track));
+      const bool same_run = last + 1 == i && !places.empty() && places.back().motion == static_cast<int>(m);
+      if (!same_run) places.emplace_back();
+      if (!same_run || f < places.back().f) {
+        places.back().motion = static_cast<int>(m);
+        places.back().t = static_cast<double>(i) * spacing();
+        places.back().f = f;
       }
-      i = next_pose(m, i, f - bound_f);
-    }
+      last = i;
+    });
   }
   std::erase_if(places, [&](const SweptContact& place) { return place.f > bound_f; });
   if (!places.empty()) return;
@@ -207,23 +235,24 @@ SweptContact SweptEstimate::nearest(const Vec3& x, const SweptContact& hint) con
   SweptContact best;
   best.f = std::numeric_limits<double>::infinity();
   const auto look = [&](std::size_t m) {
-    const std::size_t none = poses_[m].size();
-    Tabulated least{none, best.f + slack(m)};
+    const Track& track = tracks_[m];
+    const std::size_t none = track.poses.size();
+    Tabulated least{none, best.f + slack(track)};
     if (hint.motion == static_cast<int>(m)) least = at_hint(hint, x);
-    least = std::isfinite(least.f) ? nearest_pose(m, x, least) : nearest_pose(m, x);
+    least = std::isfinite(least.f) ? nearest_pose(track, x, least) : nearest_pose(track, x);
     if (least.at == none) return;  // nothing nearer than that of another motion
     const SweptContact found = at_vertex(m, least, x);
     if (found.f < best.f) best = found;
   };
   // A motion that is near keeps the search of the others short.
   if (hint.motion >= 0) look(static_cast<std::size_t>(hint.motion));
-  for (std::size_t m = 0; m < poses_.size(); ++m)
+  for (std::size_t m = 0; m < tracks_.size(); ++m)
     if (hint.motion != static_cast<int>(m)) look(m);
   return best;
 }
 
 SweptContact SweptEstimate::at_vertex(std::size_t motion, const Tabulated& least, const Vec3& x) const {
-  const std::vector<Pose>& poses = poses_[motion];
+  const std::vector<Pose>& poses = tracks_[motion].poses;
   SweptContact found;
   found.motion = static_cast<int>(motion);
   found.f = least.f;

@@ -2,6 +2,7 @@
 /// motions. The judge has its own, exact one.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <vector>
 
@@ -35,34 +36,46 @@ class SweptEstimate {
     return refiner_.refine(x, place, spacing());
   }
   /// Spacing of the poses in t.
-  [[nodiscard]] double spacing() const { return 1.0 / (static_cast<double>(poses_.front().size()) - 1.0); }
+  [[nodiscard]] double spacing() const { return 1.0 / (static_cast<double>(tracks_.front().poses.size()) - 1.0); }
 
  private:
-  [[nodiscard]] double at_pose(const Pose& pose, const Vec3& x) const;
-  /// At most at_pose, for a quarter of its time: what lies beyond a bound need not be known better.
-  [[nodiscard]] double floor_at(const Pose& pose, const Vec3& x) const;
-  /// The next pose after `at` where f may be lower by more than `spare`.
-  [[nodiscard]] std::size_t next_pose(std::size_t motion, std::size_t at, double spare) const;
+  /// The tabulated poses of a motion.
+  struct Track {
+    std::vector<Pose> poses;
+    std::array<std::vector<double>, 6> columns;  ///< of the same: tip and axis, a column a coordinate
+    /// Of every kBlock poses: no point of the axis is farther from where it is at the middle one.
+    std::vector<double> reach;
+    double stride = 0.0;  ///< no point of the axis moves farther from one pose to the next
+  };
   /// A tabulated pose and its f.
   struct Tabulated {
     std::size_t at = 0;
     double f = std::numeric_limits<double>::infinity();
   };
+  [[nodiscard]] static Track make_track(const RuledMotion& motion, int poses);
+  /// f of the spheres of one pose; if that is above `most`, some value above it.
+  [[nodiscard]] double at_pose(const Pose& pose, const Vec3& x,
+                               double most = std::numeric_limits<double>::infinity()) const;
+  /// At most at_pose, for a fraction of its time: what lies beyond a bound need not be known better.
+  [[nodiscard]] double floor_at(const Pose& pose, const Vec3& x) const;
+  /// Squares of the distances from the axes of a block's poses.
+  void squares(const Track& track, std::size_t block, const Vec3& x, double* out) const;
+  /// visit(pose) of all poses where f may be at most `most`, ascending, and maybe of others; `most` may fall meanwhile.
+  template <class Visit>
+  void visit_near(const Track& track, const Vec3& x, const double& most, const Visit& visit) const;
   /// The pose of least f, if that is below `bound.f`; else `bound`.
-  [[nodiscard]] Tabulated nearest_pose(std::size_t motion, const Vec3& x, const Tabulated& bound) const;
+  [[nodiscard]] Tabulated nearest_pose(const Track& track, const Vec3& x, const Tabulated& bound) const;
   /// The same where nothing is known yet.
-  [[nodiscard]] Tabulated nearest_pose(std::size_t motion, const Vec3& x) const;
+  [[nodiscard]] Tabulated nearest_pose(const Track& track, const Vec3& x) const;
   /// The pose nearest to a hint.
   [[nodiscard]] Tabulated at_hint(const SweptContact& hint, const Vec3& x) const;
   /// The vertex of the parabola through a least pose and its neighbours: at a minimum f is smooth in t.
   [[nodiscard]] SweptContact at_vertex(std::size_t motion, const Tabulated& least, const Vec3& x) const;
-  [[nodiscard]] double slack(std::size_t motion) const;
+  [[nodiscard]] double slack(const Track& track) const;
   [[nodiscard]] double bound(const Vec3& x, const SweptContact& hint) const;
 
   ContactRefiner refiner_;
-  std::vector<std::vector<Pose>> poses_;
-  std::vector<double> stride_;  ///< of each motion: no point of the axis moves farther from one pose to the next
-  std::vector<std::vector<double>> travel_;  ///< of each motion, up to each pose: the sum of such steps
+  std::vector<Track> tracks_;
   /// r and r'/sqrt(1-r'^2) at a step of s, and by how much they grow to the next.
   struct Row {
     double radius = 0.0, more_radius = 0.0, slope = 0.0, more_slope = 0.0;
@@ -71,6 +84,7 @@ class SweptEstimate {
   double axis_length_;
   double per_length_;  ///< table intervals per mm
   double least_radius_ = 0.0, largest_radius_ = 0.0;
+  double steepest_ = 0.0, cosine_ = 0.0;  ///< largest |r'| of the table, at most 1, and sqrt(1 - r'^2) there
 };
 
 }  // namespace flank::internal
