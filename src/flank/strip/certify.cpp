@@ -150,7 +150,8 @@ std::vector<CoverStrip> cut_at_kinks(const CoverSamples& samples, const PoseGuar
                                      const RadialFunction& radial, LineFitter& fitter, const TurnLimit& limit) {
   constexpr int kTries = 3;  ///< a stretch is a new approximation, which may turn once more
   const double tolerance = fitter.options().tolerance_mm;
-  std::vector<CoverStrip> pieces(1, std::move(strip));
+  std::vector<CoverStrip> pieces;
+  pieces.push_back(std::move(strip));
   for (int k = 0; k < kTries; ++k) {
     std::vector<CoverStrip> next;
     bool any = false;
