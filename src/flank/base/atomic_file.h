@@ -11,8 +11,9 @@ namespace flank::internal {
 /// destructor removes what was not committed.
 class AtomicFile {
  public:
-  /// A link is followed: what it points to is written, and it stays. What writers of this file have left that were killed
-  /// is removed. Throws InputError when the folder does not exist, or the file cannot be created there, or `file` is a folder, a device or a pipe, or is read by who asked for it (base/kept).
+  /// A link is followed: what it points to is written, and it stays. What writers of this file have left that were killed is removed. Throws
+  /// InputError when the folder does not exist, or the file cannot be created there, or `file` is a folder, a device or a pipe, or is read by
+  /// who asked for it (base/kept).
   explicit AtomicFile(const std::string& file);
   /// Without commit() the temporary file is removed, and the real one is as before.
   ~AtomicFile();
