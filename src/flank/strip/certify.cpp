@@ -150,29 +150,17 @@ std::vector<CoverStrip> cut_at_kinks(const CoverSamples& samples, const PoseGuar
                                      const RadialFunction& radial, LineFitter& fitter, const TurnLimit& limit) {
   constexpr int kTries = 3;  ///< a stretch is a new approximation, which may turn once more
   const double tolerance = fitter.options().tolerance_mm;
-  std::vector<CoverStrip> pieces;
-  pieces.push_back(std::move(strip));
-  for (int k = 0; k < kTries; ++k) {
-    std::vector<CoverStrip> next;
-    bool any = false;
-    for (CoverStrip& piece : pieces) {
-      const std::vector<TimeRange> stretches = stretches_between_kinks(piece.motion, limit, tolerance);
-      if (stretches.size() == 1 && stretches.front().first == 0.0 && stretches.front().last == 1.0) {
-        next.push_back(std::move(piece));
-        continue;
-      }
-      any = true;
-      for (const TimeRange& stretch : stretches) {
+  const auto kinked = [&](const CoverStrip& piece) { return has_kink(piece.motion, limit, tolerance); };
+  std::vector<CoverStrip> steady, open;
+  (kinked(strip) ? open : steady).push_back(std::move(strip));
+  for (int k = 0; k < kTries && !open.empty(); ++k)
+    for (const CoverStrip& piece : std::exchange(open, {}))
+      for (const TimeRange& stretch : stretches_between_kinks(piece.motion, limit, tolerance)) {
         const RuledMotion part = part_of_motion(piece.motion, stretch.first, stretch.last);
         CoverStrip cut = cut_to_certified(samples, guard, measure_strip(samples, part, radial, fitter), radial, fitter);
-        if (!cut.cells.empty()) next.push_back(std::move(cut));
+        if (!cut.cells.empty()) (kinked(cut) ? open : steady).push_back(std::move(cut));
       }
-    }
-    pieces = std::move(next);
-    if (!any) return pieces;
-  }
-  std::erase_if(pieces, [&](const CoverStrip& piece) { return has_kink(piece.motion, limit, tolerance); });
-  return pieces;
+  return steady;
 }
 
 namespace {

@@ -30,7 +30,7 @@ namespace flank::internal {
 [[nodiscard]] CoverStrip cut_to_certified(const CoverSamples& samples, const PoseGuard& guard, CoverStrip strip,
                                           const RadialFunction& radial, LineFitter& fitter);
 
-/// The strip without its kinks: its stretches between them, each certified, in their order; as it is if it has none. Empty if nothing of it
+/// The strip without its kinks: its stretches between them, each certified; as it is if it has none. Empty if nothing of it
 /// is certified.
 [[nodiscard]] std::vector<CoverStrip> cut_at_kinks(const CoverSamples& samples, const PoseGuard& guard,
                                                    CoverStrip strip, const RadialFunction& radial, LineFitter& fitter,
