@@ -28,42 +28,46 @@ void note_chosen_shank(const Tool& tool, const ObstacleRequest& chosen, std::vec
                     tool.shank.empty() ? 0.0 : 2.0 * tool.shank.back().y(), *chosen.shank_length_mm));
 }
 
-/// By how much the shank of a tool is nearer than it must be, and than `least_mm`; <= 0: nowhere. None: something else comes too near, which no
-/// thinner shank helps.
-std::optional<double> missing_room(const ClearanceScene& scene, const Tool& tool, const Path& path, double least_mm) {
-  double missing = 0.0;
-  for (const ClearanceFigure& figure : measure_clearance(scene, tool, path).figures) {
-    if (figure.body == ToolBody::kShank)
-      missing = std::max(missing, std::max(figure.required_mm, least_mm) - (figure.clearance_mm - figure.bound_mm));
-    else if (!figure.kept)
-      return std::nullopt;
-  }
-  return missing;
-}
-
 Tool with_shank(const ObstacleRequest& obstacles, Tool flank) {
   equip_tool(obstacles, flank);
   return flank;
 }
 
-/// The radius at which the chosen shank is clear, by as much thinner as it comes too near.
+/// By how much the shank of a tool is farther from everything than it must be, and than `least_mm`; negative: it is not. None: something else
+/// comes too near, which no thinner shank helps.
+std::optional<double> room_beside(const ClearanceScene& scene, const Tool& tool, const Path& path, double least_mm) {
+  double room = 1e300;
+  for (const ClearanceFigure& figure : measure_clearance(scene, tool, path).figures) {
+    if (figure.body == ToolBody::kShank)
+      room = std::min(room, figure.clearance_mm - figure.bound_mm - std::max(figure.required_mm, least_mm));
+    else if (!figure.kept)
+      return std::nullopt;
+  }
+  return room;
+}
+
+/// The largest radius, to a hundredth of a millimetre, at which the chosen shank is clear. It grows from a thin one by as much as that has room
+/// on all sides: how far a thing is away is told in a moment, and no thing that is farther than it grows is met.
 std::optional<double> clear_radius(const ClearanceScene& scene, const Path& path, double slenderest, const Tool& flank,
                                    double least_mm, ObstacleRequest chosen) {
-  constexpr int kMost = 5;           // times: the nearest place changes
+  constexpr int kMost = 8;           // times: the nearest place changes
   constexpr double kWhole = 100.0;   // radii to a hundredth of a millimetre
   constexpr double kThinnest = 0.1;  // of the first radius: thinner ones hold nothing (judge_hold)
   const double thick = with_shank(chosen, flank).shank.back().y();
+  double radius = kThinnest * thick;
   for (int k = 0; k < kMost; ++k) {
-    const Tool tool = with_shank(chosen, flank);
-    if (!(stiffness(tool).slenderness <= slenderest)) return std::nullopt;
-    const std::optional<double> missing = missing_room(scene, tool, path, least_mm);
-    if (!missing) return std::nullopt;
-    const double radius = tool.shank.back().y();
-    if (*missing <= 0.0) return radius;
-    chosen.shank_radius_mm = std::floor(kWhole * (radius - *missing)) / kWhole;
-    if (!(*chosen.shank_radius_mm > kThinnest * thick)) return std::nullopt;
+    chosen.shank_radius_mm = radius;
+    const std::optional<double> room = room_beside(scene, with_shank(chosen, flank), path, least_mm);
+    if (!room || *room < 0.0) return std::nullopt;
+    // The room of the thicker one is again known to the accuracy alone.
+    const double spare = *room - 2.0 * scene.options.accuracy_mm;
+    const double grown = std::floor(kWhole * std::min(thick, radius + spare)) / kWhole;
+    if (!(grown > radius)) break;
+    radius = grown;
   }
-  return std::nullopt;
+  chosen.shank_radius_mm = radius;
+  if (!(stiffness(with_shank(chosen, flank)).slenderness <= slenderest)) return std::nullopt;
+  return radius;
 }
 
 }  // namespace
@@ -74,11 +78,11 @@ void choose_clear_shank(const ClearanceScene& scene, const Path& path, const Box
   choose_shank(flank, path, part, obstacles);
   obstacles.shank = "given";
   if (!open) return;
-  const double thick = with_shank(obstacles, flank).shank.back().y();
   // Out of contact, or else no deeper than is allowed.
   for (const double least_mm : {0.0, -1e300}) {
+    if (keeps_clear(scene, with_shank(obstacles, flank), path, least_mm)) return;
     const std::optional<double> radius = clear_radius(scene, path, slenderest, flank, least_mm, obstacles);
-    if (radius && *radius < thick) obstacles.shank_radius_mm = radius;
+    if (radius) obstacles.shank_radius_mm = radius;
     if (radius) return;
   }
 }

@@ -34,7 +34,7 @@ bool added_is_clear(const ClearanceScene& scene, const RadialFunction& flank, co
   for (int k = 0; k <= kPieces; ++k) tool.shank.push_back(meridian_point(tried, from + (to - from) * k / kPieces));
   ClearanceOptions options = scene.options;
   options.required_mm = -1.0;
-  return judge_clearance(tool, path, scene.obstacles, options).kept();
+  return flank::keeps_clear(tool, path, scene.obstacles, options);
 }
 
 }  // namespace
@@ -53,7 +53,7 @@ void lift_shank(const FitJob& job, const ClearanceScene& scene, FitSearch& searc
     tool.radial = tried.tool;
     equip_tool(job.obstacles, tool);
     const Path path = sampled(search.motions_of(tried), *job.tolerance_mm);
-    return added_is_clear(scene, search.fit.tool, tried.tool, path) && measure_clearance(scene, tool, path).kept();
+    return added_is_clear(scene, search.fit.tool, tried.tool, path) && keeps_clear(scene, tool, path);
   };
   const double more = lengthen_until_clear(search.fit, std::max(1.0, job.obstacles.clearance_mm.value_or(0.0)), clear);
   if (more > 0.0)

@@ -95,11 +95,22 @@ void measure_bodies(const ClearanceScene& scene, const Tool& tool, const Path& p
   report.hold = judge_hold(tool, path, scene.obstacles, scene.options);
 }
 
+namespace {
+
+bool anything_to_judge(const ClearanceScene& scene) {
+  return scene.has_body || std::any_of(scene.obstacles.begin(), scene.obstacles.end(),
+                                       [](const Obstacle& o) { return o.role == ObstacleRole::kFixture; });
+}
+
+}  // namespace
+
 ClearanceReport measure_clearance(const ClearanceScene& scene, const Tool& tool, const Path& path) {
-  const bool fixtures = std::any_of(scene.obstacles.begin(), scene.obstacles.end(),
-                                    [](const Obstacle& o) { return o.role == ObstacleRole::kFixture; });
-  if (!scene.has_body && !fixtures) return {};
+  if (!anything_to_judge(scene)) return {};
   return judge_clearance(tool, path, scene.obstacles, scene.options);
+}
+
+bool keeps_clear(const ClearanceScene& scene, const Tool& tool, const Path& path, double shank_least_mm) {
+  return !anything_to_judge(scene) || flank::keeps_clear(tool, path, scene.obstacles, scene.options, shank_least_mm);
 }
 
 }  // namespace flank::internal

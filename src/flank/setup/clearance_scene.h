@@ -28,4 +28,8 @@ void measure_bodies(const ClearanceScene& scene, const Tool& tool, const Path& p
 /// Judges shank, holder and fixtures alone; an empty report if there is nothing to judge.
 [[nodiscard]] ClearanceReport measure_clearance(const ClearanceScene& scene, const Tool& tool, const Path& path);
 
+/// Whether all of them are kept, and shanks keep `shank_least_mm` besides; yes if there is nothing to judge. Ends at the first that is not.
+[[nodiscard]] bool keeps_clear(const ClearanceScene& scene, const Tool& tool, const Path& path,
+                               double shank_least_mm = -1e300);
+
 }  // namespace flank::internal

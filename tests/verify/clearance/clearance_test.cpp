@@ -33,6 +33,13 @@ const ClearanceFigure& figure_of(const ClearanceReport& report, ToolBody body, O
   throw std::runtime_error("no such figure");
 }
 
+/// Whether all is kept, by figures and by the look that ends at the first that is not.
+bool kept(const Tool& tool, const Path& path, const std::vector<Obstacle>& obstacles, const ClearanceOptions& options) {
+  const bool by_figures = judge_clearance(tool, path, obstacles, options).kept();
+  EXPECT_EQ(keeps_clear(tool, path, obstacles, options), by_figures);
+  return by_figures;
+}
+
 TEST(ClearanceVerdict, StillToolOverPlane) {
   const Path path = path_of({{Vec3(0, 0, 10), Vec3::UnitZ()}, {Vec3(5, 0, 10), Vec3::UnitZ()}});
   const std::vector<Obstacle> obstacles = {{"F2", ObstacleRole::kPart, square(200, 55.0), 0.0},
@@ -59,15 +66,18 @@ TEST(ClearanceVerdict, RequirementsAndWhoMayTouch) {
   options.required_mm = 3.0;
   ClearanceReport report = judge_clearance(with_holder(), path, {{"F1", ObstacleRole::kTarget, wall, 0.0}}, options);
   EXPECT_TRUE(report.kept());
+  EXPECT_TRUE(keeps_clear(with_holder(), path, {{"F1", ObstacleRole::kTarget, wall, 0.0}}, options, -0.01));
+  EXPECT_FALSE(keeps_clear(with_holder(), path, {{"F1", ObstacleRole::kTarget, wall, 0.0}}, options, 0.01))
+      << "a shank may touch, but not where more is asked of it";
   EXPECT_NEAR(figure_of(report, ToolBody::kShank, ObstacleRole::kTarget).clearance_mm, 0.0, 1e-9);
   EXPECT_NEAR(figure_of(report, ToolBody::kHolder, ObstacleRole::kTarget).clearance_mm, 5.0, 1e-9);
   options.required_mm = 5.5;
-  EXPECT_FALSE(judge_clearance(with_holder(), path, {{"F1", ObstacleRole::kTarget, wall, 0.0}}, options).kept());
+  EXPECT_FALSE(kept(with_holder(), path, {{"F1", ObstacleRole::kTarget, wall, 0.0}}, options));
   // As another face of the part the shank must keep the clearance as well.
   options.required_mm = 3.0;
-  EXPECT_FALSE(judge_clearance(with_holder(), path, {{"F1", ObstacleRole::kPart, wall, 0.0}}, options).kept());
+  EXPECT_FALSE(kept(with_holder(), path, {{"F1", ObstacleRole::kPart, wall, 0.0}}, options));
   options.required_mm = -1.0;
-  EXPECT_TRUE(judge_clearance(with_holder(), path, {{"F1", ObstacleRole::kPart, wall, 0.0}}, options).kept());
+  EXPECT_TRUE(kept(with_holder(), path, {{"F1", ObstacleRole::kPart, wall, 0.0}}, options));
 }
 
 /// A post that stands between two poses: both ends are free.
@@ -77,7 +87,7 @@ TEST(ClearanceVerdict, CollisionBetweenTwoFreePoses) {
   const Tool tool = with_holder();
   const Pose left{Vec3(-300, 0, 0), Vec3::UnitZ()}, right{Vec3(411, 0, 0), Vec3(0.1, 0.2, 1).normalized()};
   for (const Pose& end : {left, right}) {
-    EXPECT_TRUE(judge_clearance(tool, path_of({end}), obstacles, {}).kept());
+    EXPECT_TRUE(kept(tool, path_of({end}), obstacles, {}));
   }
   const ClearanceReport report = judge_clearance(tool, path_of({left, right}), obstacles, {});
   EXPECT_FALSE(report.kept());

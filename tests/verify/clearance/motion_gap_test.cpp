@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 
 #include "flank/threads.h"
 #include "flank/verify/clearance/triangle_gap.h"
@@ -151,6 +152,48 @@ TEST(MotionGap, NothingBelowTheLimitSaysSo) {
   EXPECT_EQ(MotionGap(body, none, way).least(kAccuracyMm, kNoLimit).segment, -1);
   EXPECT_EQ(MotionGap({}, tree, way).least(kAccuracyMm, kNoLimit).segment, -1);
   EXPECT_EQ(MotionGap(body, tree, {}).least(kAccuracyMm, kNoLimit).segment, -1);
+}
+
+TEST(MotionGap, SaysWhetherItStaysAboveAsTheLeastDoes) {
+  Random random(5);
+  const std::vector<Revolved> body = convex_bodies({{0, 3}, {10, 2}, {20, 5}, {30, 5}});
+  const int rounds = kSanitized ? 2 : 10;
+  for (int round = 0; round < rounds; ++round) {
+    const ObstacleTree tree(rubble(random, 25));
+    const std::vector<Segment> way = turning_segments(random, 3);
+    const MotionGap motion(body, tree, way);
+    const double least = motion.least(kAccuracyMm, kNoLimit).value, bound = gap_bound(least, kAccuracyMm);
+    EXPECT_TRUE(motion.stays_above(least - 4.0 * bound, kAccuracyMm)) << round << ": " << least;
+    EXPECT_FALSE(motion.stays_above(least + bound, kAccuracyMm)) << round << ": " << least;
+  }
+  EXPECT_TRUE(MotionGap(body, ObstacleTree(), turning_segments(random, 3)).stays_above(1e9, kAccuracyMm));
+}
+
+/// Below a shank's lower edge a face that leans enters by a few hundredths: first intervals as short as the bound of such a depth would be a
+/// thousand a segment.
+TEST(MotionGap, AShallowCollisionBelowAnEdgeIsMeasuredInAMoment) {
+  const std::vector<Revolved> body = convex_bodies({{0, 4}, {60, 4}});
+  constexpr int kCells = 100;
+  TriangleMesh wall;
+  for (int i = 0; i <= kCells; ++i)
+    for (int j = 0; j <= kCells; ++j)
+      wall.vertices.emplace_back(100.0 * i / kCells, 4.0 + 0.005 * (j - 50), 0.01 * (j - 50));
+  for (int i = 0; i < kCells; ++i)
+    for (int j = 0; j < kCells; ++j) {
+      const int k = i * (kCells + 1) + j;
+      wall.triangles.push_back({k, k + 1, k + kCells + 1});
+      wall.triangles.push_back({k + 1, k + kCells + 1, k + kCells + 2});
+    }
+  const ObstacleTree tree(wall);
+  const auto seconds = [&](double away, double least) {
+    std::vector<Segment> way;
+    for (int k = 0; k < 100; ++k) way.push_back(straight({1.0 * k, -away, 0}, {1.0 * k + 1.0, -away, 0}));
+    const std::clock_t begin = std::clock();
+    EXPECT_NEAR(MotionGap(body, tree, way).least(1e-3, kNoLimit).value, least, 2e-3);
+    return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  };
+  (void)seconds(0.1, 0.1 / std::sqrt(1.25));
+  EXPECT_LT(seconds(-0.1, -0.1 / 1.5), kSanitized ? 5.0 : 0.6) << "of processor time";
 }
 
 TEST(MotionGap, AtOnePlaceItIsTheDistanceOfThatPose) {

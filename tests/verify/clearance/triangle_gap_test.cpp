@@ -45,6 +45,34 @@ TEST(TriangleGap, BodyThatPokesThroughATriangle) {
   EXPECT_NEAR(triangle_gap(kCylinder, {Vec3(9, -1, 12), Vec3(9, 1, 12), Vec3(12, 0, 12)}).value, 5.0, 1e-9);
 }
 
+TEST(LeastOfLarger, IsTheLeastOfTheLargerOfTwoPlanesOnATriangle) {
+  Random random(8);
+  for (int i = 0; i < 300; ++i) {
+    std::array<double, 3> a, b;
+    for (std::size_t k = 0; k < 3; ++k) a[k] = random.uniform(-1.0, 1.0), b[k] = random.uniform(-1.0, 1.0);
+    constexpr int kSteps = 60;
+    double least = 1e300;
+    for (int p = 0; p <= kSteps; ++p) {
+      for (int q = 0; p + q <= kSteps; ++q) {
+        const double u = static_cast<double>(p) / kSteps, v = static_cast<double>(q) / kSteps, w = 1.0 - u - v;
+        least = std::min(least, std::max(u * a[0] + v * a[1] + w * a[2], u * b[0] + v * b[1] + w * b[2]));
+      }
+    }
+    const double found = least_of_larger(a, b);
+    ASSERT_LE(found, least + 1e-12) << i << ": a bound from below";
+    ASSERT_GE(found, least - 2.0 * 2.0 / kSteps) << i << ": as high as it can be, but for the steps of the grid";
+  }
+}
+
+TEST(FacingNormals, AreOfTheTwoNearestSidesWithinTheBody) {
+  // Nearer to the lower end than to the wall, and no third side is as near.
+  const std::array<Vec3, 2> normals = facing_normals(kCylinder, Vec3(0.0, 3.5, 0.2));
+  EXPECT_LT((normals[0] - Vec3(0, 0, -1)).norm(), 1e-15);
+  EXPECT_LT((normals[1] - Vec3(0, 1, 0)).norm(), 1e-15);
+  const Revolved ball({{5.0, 0.0}}, 3.0);
+  EXPECT_LT((facing_normals(ball, Vec3(1, 0, 5))[1] - Vec3(1, 0, 0)).norm(), 1e-15) << "its gradient";
+}
+
 TEST(TriangleGap, AgreesWithBruteForce) {
   Random random(7);
   const std::vector<std::vector<Vec2>> profiles = {

@@ -40,7 +40,7 @@ void accept_links(const PlannedOperation& plan, PostOutcome& outcome) {
                            tolerance));
   }
   const ClearanceScene scene = make_clearance_scene(plan.setup, plan.obstacles, has_body(plan.tool), outcome.notes);
-  if (!measure_clearance(scene, plan.tool, plan.links.links()).kept())
+  if (!keeps_clear(scene, plan.tool, plan.links.links()))
     add_reason(outcome.acceptance, Figure::kClearance, "shank, holder or a fixture comes too close on a link");
 }
 

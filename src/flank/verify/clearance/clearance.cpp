@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <limits>
 #include <optional>
 
@@ -157,25 +158,60 @@ const ClearanceFigure* ClearanceReport::worst() const {
   return least == figures.end() ? nullptr : &*least;
 }
 
+namespace {
+
+/// What is measured of a tool on a path: each body against the obstacles of each role.
+struct Pairs {
+  std::vector<Segment> segments;
+  std::array<Scene, kRoles.size()> scenes;
+  std::vector<Body> bodies;
+
+  Pairs(const Tool& tool, const Path& path, const std::vector<Obstacle>& obstacles, const ClearanceOptions& options) {
+    if (!(options.accuracy_mm > 0.0) || !(options.tolerance_mm > 0.0))
+      throw UsageError("clearance: accuracy and tolerance must be > 0 mm");
+    segments = PoseTree(path, tool.radial.axis_length(), 1e300).segments;
+    for (std::size_t k = 0; k < kRoles.size(); ++k) scenes[k] = scene_of(obstacles, kRoles[k]);
+    bodies = bodies_of(tool);
+  }
+
+  /// Until a call says that it is enough.
+  void each(const std::function<bool(const Body&, const Scene&)>& call) const {
+    for (const Body& body : bodies)
+      for (const Scene& scene : scenes) {
+        const bool judged_elsewhere = body.name == ToolBody::kFlank && scene.role != ObstacleRole::kFixture;
+        if (!body.parts.empty() && !scene.tree.empty() && !judged_elsewhere && !call(body, scene)) return;
+      }
+  }
+};
+
+}  // namespace
+
 ClearanceReport judge_clearance(const Tool& tool, const Path& path, const std::vector<Obstacle>& obstacles,
                                 const ClearanceOptions& options) {
-  if (!(options.accuracy_mm > 0.0) || !(options.tolerance_mm > 0.0))
-    throw UsageError("clearance: accuracy and tolerance must be > 0 mm");
-  const std::vector<Segment> segments = PoseTree(path, tool.radial.axis_length(), 1e300).segments;
-  std::array<Scene, kRoles.size()> scenes;
-  for (std::size_t k = 0; k < kRoles.size(); ++k) scenes[k] = scene_of(obstacles, kRoles[k]);
+  const Pairs pairs(tool, path, obstacles, options);
   ClearanceReport report;
   for (const Strip& strip : path.strips)
     report.pose_clearance_mm.emplace_back(strip.poses.size(), std::numeric_limits<double>::infinity());
-  for (const Body& body : bodies_of(tool)) {
-    if (body.parts.empty()) continue;
-    for (const Scene& scene : scenes) {
-      if (scene.tree.empty() || (body.name == ToolBody::kFlank && scene.role != ObstacleRole::kFixture)) continue;
-      report.figures.push_back(measure(body, scene, obstacles, segments, options));
-      if (!may_touch(body.name, scene.role)) lower_to(report.pose_clearance_mm, body, scene, segments);
-    }
-  }
+  pairs.each([&](const Body& body, const Scene& scene) {
+    report.figures.push_back(measure(body, scene, obstacles, pairs.segments, options));
+    if (!may_touch(body.name, scene.role)) lower_to(report.pose_clearance_mm, body, scene, pairs.segments);
+    return true;
+  });
   return report;
+}
+
+bool keeps_clear(const Tool& tool, const Path& path, const std::vector<Obstacle>& obstacles,
+                 const ClearanceOptions& options, double shank_least_mm) {
+  const Pairs pairs(tool, path, obstacles, options);
+  bool kept = true;
+  pairs.each([&](const Body& body, const Scene& scene) {
+    double least = requirement(options, body.name, scene.role);
+    if (body.name == ToolBody::kShank) least = std::max(least, shank_least_mm);
+    least += body.deviation_mm + scene.deviation_mm;
+    kept = MotionGap(body.parts, scene.tree, pairs.segments).stays_above(least, options.accuracy_mm);
+    return kept;
+  });
+  return kept;
 }
 
 std::optional<HoldReport> judge_hold(const Tool& tool, const Path& path, const std::vector<Obstacle>& obstacles,

@@ -5,7 +5,8 @@
 //     distance(tau) >= min over the triangle of <n, x> - h(tau),   h(tau) = support of the body's pose along n
 //                    = max over its corners of <n, a(tau)> + z_i <n, u(tau)> + r_i |n x u(tau)|,
 //
-// which is exact in the middle and loses only by curvature. On the arc that u runs along, with its angle as parameter,
+// which is exact in the middle and loses only by curvature. Where the body is entered and two of its sides are as near, the
+// best mean of their two bounds is (triangle_gap.h). On the arc that u runs along, with its angle as parameter,
 // <n, u>'' = -<n, u> and |n x u|'' >= -|n x u|, so h lies below its larger end value plus M (interval)^2 / 8, with
 // M = max(|z| + r) (theta' ^2 + |theta''|), theta' <= |dw| / w^2 and |theta''| <= theta' |dw|^2 / w^2, w the least
 // |w0 + tau dw|.
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 
 #include "flank/base/assert.h"
@@ -27,10 +29,9 @@ namespace {
 /// that the first-order bound decides at once. And into no more than so many, whatever a path's steps are.
 constexpr double kFirstReachMm = 0.5, kFirstReach = 0.25;
 constexpr int kMostIntervals = 1024;
-constexpr double kDepthSlack = 0.25;      ///< of the bound that is allowed: error of the depth at one pose ...
-constexpr double kFirstDepthReach = 0.7;  ///< ... and first intervals once there is a collision
-constexpr int kFirstPoses = 48;           ///< looked at before all else, for a good value to compare with
-constexpr std::size_t kBlock = 32;        ///< segments a task searches; fixed, so that threads change nothing
+constexpr double kDepthSlack = 0.25;  ///< of the bound that is allowed: error of the depth at one pose
+constexpr int kFirstPoses = 48;       ///< looked at before all else, for a good value to compare with
+constexpr std::size_t kBlock = 32;    ///< segments a task searches; fixed, so that threads change nothing
 
 /// The tool's frame at a pose.
 struct Frame {
@@ -79,22 +80,21 @@ MotionGap::MotionGap(const std::vector<Revolved>& body, const ObstacleTree& tree
 /// The search of one task, with its scratch memory.
 class GapSearch {
  public:
-  GapSearch(const MotionGap& motion, double accuracy, const GapPlace& start)
-      : motion_(motion), accuracy_(accuracy), best_(start) {}
+  /// `any`: the first place below the start is enough.
+  GapSearch(const MotionGap& motion, double accuracy, const GapPlace& start, bool any = false)
+      : motion_(motion), accuracy_(accuracy), any_(any), best_(start) {}
 
   [[nodiscard]] const GapPlace& best() const { return best_; }
+  [[nodiscard]] bool ended() const { return any_ && best_.segment >= 0; }
 
   /// One pose alone: an interval of length 0, which gather() decides.
   void look_at(int segment, double tau) { gather({segment, tau, tau}); }
 
   void search(int segment) {
     const double reach = this->reach({segment, 0.0, 1.0});
-    // Inside a body only the first-order bound holds: intervals that it decides at once are cheaper than halving.
-    const double first = best_.value < 0.0
-                             ? std::min(kFirstReachMm, kFirstDepthReach * gap_bound(best_.value, accuracy_))
-                             : std::max(kFirstReachMm, kFirstReach * best_.value);
+    const double first = std::max(kFirstReachMm, kFirstReach * std::abs(best_.value));
     const int count = std::clamp(static_cast<int>(std::ceil(reach / first)), 1, kMostIntervals);
-    for (int k = 0; k < count; ++k) {
+    for (int k = 0; k < count && !ended(); ++k) {
       const Interval interval{segment, static_cast<double>(k) / count, static_cast<double>(k + 1) / count};
       gather(interval);
       split(interval, 0);
@@ -116,6 +116,7 @@ class GapSearch {
 
   const MotionGap& motion_;
   double accuracy_;
+  bool any_;
   GapPlace best_;
   std::vector<Pair> open_;  ///< pairs that an interval could not decide, a stack
   std::vector<std::pair<double, int>> nodes_;
@@ -197,9 +198,15 @@ void GapSearch::check(const Interval& interval, const Frame& frame, double reach
              on_body.head<2>().norm()};
   }
   if (reach == 0.0 || gap.value - slack - reach >= needed()) return;
-  const Vec3 n = frame.turned(gap.normal);
-  const double near = std::min({n.dot(corners[0]), n.dot(corners[1]), n.dot(corners[2])});
-  if (near - later_support(interval, body, n) >= needed()) return;
+  std::array<std::array<double, 3>, 2> apart;
+  std::array<Vec3, 2> normals{gap.normal, gap.normal};
+  if (gap.value < 0.0) normals = facing_normals(body, gap.point);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Vec3 n = frame.turned(normals[i]);
+    const double support = later_support(interval, body, n);
+    for (std::size_t k = 0; k < 3; ++k) apart[i][k] = n.dot(corners[k]) - support;
+  }
+  if (least_of_larger(apart[0], apart[1]) >= needed()) return;
   open_.push_back(pair);
 }
 
@@ -209,7 +216,7 @@ void GapSearch::gather(const Interval& interval) {
   const Frame frame(segment(interval).at(interval.middle()));
   const double reach = this->reach(interval);
   nodes_.assign(1, {node_bound(frame, motion_.tree_.node(0).sphere), 0});
-  while (!nodes_.empty()) {
+  while (!nodes_.empty() && !ended()) {
     const auto [bound, index] = nodes_.back();
     nodes_.pop_back();
     if (bound >= needed() + reach) continue;
@@ -232,7 +239,7 @@ void GapSearch::gather(const Interval& interval) {
 /// in it, the first-order bound decides.
 void GapSearch::split(const Interval& interval, std::size_t begin) {
   const std::size_t end = open_.size();
-  if (begin == end) return;
+  if (begin == end || ended()) return;
   const double middle = interval.middle();
   for (const Interval& half :
        {Interval{interval.segment, interval.low, middle}, Interval{interval.segment, middle, interval.high}}) {
@@ -255,25 +262,36 @@ double MotionGap::at(int segment, double tau, double accuracy_mm, double limit_m
   return search.best().value;
 }
 
-GapPlace MotionGap::least(double accuracy_mm, double limit_mm) const {
+GapPlace MotionGap::search(GapPlace start, double accuracy_mm, bool any) const {
   FLANK_ASSERT(accuracy_mm > 0.0);
-  GapPlace start;
-  start.value = limit_mm;
   if (body_.empty() || tree_.empty() || segments_.empty()) return start;
   // A good value early makes the bounds of all tasks bite: a few poses spread over the path, before any interval.
-  GapSearch first(*this, accuracy_mm, start);
+  GapSearch first(*this, accuracy_mm, start, any);
   const std::size_t poses = std::min<std::size_t>(kFirstPoses, segments_.size());
-  for (std::size_t k = 0; k < poses; ++k) first.look_at(static_cast<int>(k * segments_.size() / poses), 0.5);
+  for (std::size_t k = 0; k < poses && !first.ended(); ++k)
+    first.look_at(static_cast<int>(k * segments_.size() / poses), 0.5);
   start = first.best();
+  std::atomic<bool> ended = first.ended();
   std::vector<GapPlace> found((segments_.size() + kBlock - 1) / kBlock);
   parallel_blocks(segments_.size(), kBlock, [&](std::size_t begin, std::size_t end) {
-    GapSearch search(*this, accuracy_mm, start);
-    for (std::size_t k = begin; k < end; ++k) search.search(static_cast<int>(k));
+    GapSearch search(*this, accuracy_mm, start, any);
+    for (std::size_t k = begin; k < end && !ended; ++k) {
+      search.search(static_cast<int>(k));
+      if (search.ended()) ended = true;
+    }
     found[begin / kBlock] = search.best();
   });
   for (const GapPlace& place : found)
     if (place.value < start.value) start = place;
   return start;
+}
+
+GapPlace MotionGap::least(double accuracy_mm, double limit_mm) const {
+  return search({.value = limit_mm}, accuracy_mm, false);
+}
+
+bool MotionGap::stays_above(double least_mm, double accuracy_mm) const {
+  return search({.value = least_mm + 2.0 * gap_bound(least_mm, accuracy_mm)}, accuracy_mm, true).segment < 0;
 }
 
 }  // namespace flank::internal::verify

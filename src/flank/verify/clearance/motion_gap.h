@@ -36,11 +36,17 @@ class MotionGap {
   /// The least value over all segments: found.value - gap_bound(found.value, accuracy) <= truth <= found.value. Values
   /// of `limit` and above need not be told apart. Parallel; the same bits for any number of threads.
   [[nodiscard]] GapPlace least(double accuracy_mm, double limit_mm) const;
+  /// Whether the least value is at least this: true is a proof, and where it is false the value is below
+  /// least_mm + 2 gap_bound(least_mm, accuracy). Ends at the first place that says no, so that a collision is told in a moment whose depth is
+  /// not asked.
+  [[nodiscard]] bool stays_above(double least_mm, double accuracy_mm) const;
   /// The value at one place of one segment, to the same accuracy; `limit_mm` if it is not below that.
   [[nodiscard]] double at(int segment, double tau, double accuracy_mm, double limit_mm) const;
 
  private:
   friend class GapSearch;
+
+  [[nodiscard]] GapPlace search(GapPlace start, double accuracy_mm, bool any) const;
 
   const std::vector<Revolved>& body_;
   const ObstacleTree& tree_;

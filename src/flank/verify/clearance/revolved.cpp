@@ -76,6 +76,22 @@ ProfileDistance Revolved::distance(double z, double rho) const {
   return found;
 }
 
+std::array<Vec2, 2> Revolved::facing(double z, double rho) const {
+  const ProfileDistance at = distance(z, rho);
+  std::array<Vec2, 2> normals{Vec2(at.dz, at.drho), Vec2(at.dz, at.drho)};
+  std::array<double, 2> most{-1e300, -1e300};
+  if (sides_.size() < 2) return normals;
+  for (const Side& side : sides_) {
+    const double out = side.normal.x() * (z - side.from.x()) + side.normal.y() * (rho - side.from.y());
+    const bool first = out > most[0];
+    if (!first && !(out > most[1])) continue;
+    if (first) most[1] = most[0], normals[1] = normals[0];
+    most[first ? 0 : 1] = out;
+    normals[first ? 0 : 1] = side.normal;
+  }
+  return normals;
+}
+
 const Vec2& Revolved::support(double along, double across) const {
   const Vec2* best = &corners_.front();
   double most = -1e300;

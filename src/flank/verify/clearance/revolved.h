@@ -1,6 +1,7 @@
 /// A convex solid of revolution in its own frame: the body that the judge measures clearances of.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "flank/vec.h"
@@ -29,6 +30,9 @@ class Revolved {
   [[nodiscard]] double value(double z, double rho) const;
   /// At most `value`, and equal to it but where a corner is nearest: what is far is told by it in half the time.
   [[nodiscard]] double floor(double z, double rho) const;
+  /// Outward normals of the two sides that face the point most, the first one most; its gradient twice where there are no two sides. Inside,
+  /// the distance is not smooth where both are as near.
+  [[nodiscard]] std::array<Vec2, 2> facing(double z, double rho) const;
   /// Corner (before the rounding) that is farthest in the direction that has `along` to the axis and `across` >= 0 from
   /// it.
   [[nodiscard]] const Vec2& support(double along, double across) const;

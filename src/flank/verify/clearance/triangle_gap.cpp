@@ -141,12 +141,50 @@ TriangleGap best_side(const Revolved& body, const std::array<Vec3, 3>& v, double
   return best;
 }
 
+/// The least signed distance on the triangle that the planes of the two sides allow that face x, a point inside of the body, most.
+double sides_bound(const Revolved& body, const Vec3& x, const std::array<Vec3, 3>& v) {
+  std::array<std::array<double, 3>, 2> out;
+  const std::array<Vec3, 2> normals = facing_normals(body, x);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double support = normals[i].dot(support_point(body, normals[i]));
+    for (std::size_t k = 0; k < 3; ++k) out[i][k] = normals[i].dot(v[k]) - support;
+  }
+  return least_of_larger(out[0], out[1]);
+}
+
 /// The least value on the triangle that the tangent plane of a convex function at x allows.
 double tangent_bound(double value, const Vec3& gradient, const Vec3& x, const std::array<Vec3, 3>& v) {
   return value + std::min({gradient.dot(v[0] - x), gradient.dot(v[1] - x), gradient.dot(v[2] - x)});
 }
 
 }  // namespace
+
+std::array<Vec3, 2> facing_normals(const Revolved& body, const Vec3& x) {
+  const double rho = x.head<2>().norm();
+  const Vec2 out = rho > 0.0 ? Vec2(x.head<2>() / rho) : Vec2::UnitX();
+  std::array<Vec3, 2> normals;
+  const std::array<Vec2, 2> sides = body.facing(x.z(), rho);
+  for (std::size_t i = 0; i < 2; ++i) normals[i] = Vec3(sides[i].y() * out.x(), sides[i].y() * out.y(), sides[i].x());
+  return normals;
+}
+
+// With a share s of a and the rest of b it is the least of three lines in s: the best is at an end, or where two of them meet.
+double least_of_larger(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  double best = -1e300;
+  const auto try_share = [&](double s) {
+    if (!(s >= 0.0 && s <= 1.0)) return;
+    double least = 1e300;
+    for (std::size_t k = 0; k < 3; ++k) least = std::min(least, s * a[k] + (1.0 - s) * b[k]);
+    best = std::max(best, least);
+  };
+  try_share(0.0);
+  try_share(1.0);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t l = (k + 1) % 3;
+    try_share((b[l] - b[k]) / ((a[k] - b[k]) - (a[l] - b[l])));
+  }
+  return best;
+}
 
 TriangleGap triangle_gap(const Revolved& body, const std::array<Vec3, 3>& v, double cutoff, double depth_error_mm) {
   FLANK_ASSERT(depth_error_mm > 0.0);
@@ -180,6 +218,8 @@ TriangleGap triangle_gap(const Revolved& body, const std::array<Vec3, 3>& v, dou
   if (side.value > 0.0 && !holds(v, cross, cut)) return side;
   // Mostly a side, or a corner, is the deepest place, and its tangent plane proves it.
   if (side.value < cutoff && tangent_bound(side.value, side.normal, side.point, v) >= side.value - depth_error_mm)
+    return side;
+  if (side.value < std::min(0.0, cutoff) && sides_bound(body, side.point, v) >= side.value - depth_error_mm)
     return side;
   const TriangleGap inside = deepest(body, v, depth_error_mm);
   return inside.value < side.value ? inside : side;

@@ -19,6 +19,12 @@ struct TriangleGap {
 inline constexpr double kTriangleGapErrorMm = 1e-9;
 inline constexpr double kDepthErrorMm = 1e-7;
 
+/// The two outward normals, in the body's frame, of the sides of the body that face a point of it most (Revolved::facing).
+[[nodiscard]] std::array<Vec3, 2> facing_normals(const Revolved& body, const Vec3& x);
+
+/// What the larger one of two linear functions is at least on a triangle, from their values at its corners: the best that a mean of both gives.
+[[nodiscard]] double least_of_larger(const std::array<double, 3>& a, const std::array<double, 3>& b);
+
 /// The triangle in the body's frame (axis of revolution z). Exact to kTriangleGapErrorMm where the value is below
 /// `cutoff`; else some value >= cutoff. A depth is the depth of `point` and short of the deepest by no more than
 /// `depth_error_mm`. Triangles without area are segments or points.
