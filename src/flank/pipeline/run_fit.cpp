@@ -292,8 +292,23 @@ bool passes(const Result& result) {
   return accept(result.tool, result.verify, job.judge, result.complete).reasons.empty();
 }
 
-/// A shank that is to be chosen is that of the motions found.
-Result plan_fit(const FitJob& request, bool shank_in_the_way, const Progress& asked) {
+/// What the plans of a job have in common.
+struct ReadPart {
+  Setup setup;
+  ClearanceScene scene;
+  std::vector<std::string> notes;  ///< of both
+};
+
+ReadPart read_part_of(const FitJob& job, const ToolSpec& spec) {
+  ReadPart read;
+  read.setup = read_setup(job.part, job.obstacles, job.tolerance_mm, read.notes);
+  check_axis_length(job, read.setup.part);
+  read.scene = make_clearance_scene(read.setup, job.obstacles, has_body(spec, job.obstacles), read.notes);
+  return read;
+}
+
+/// A shank that is to be chosen is that of the motions found. `part`: read by an earlier plan of this job, if there was one.
+Result plan_fit(const FitJob& request, bool shank_in_the_way, const Progress& asked, std::optional<ReadPart>& part) {
   const Progress progress = with_journal(asked);
   check_job(request);
   Result result;
@@ -307,13 +322,14 @@ Result plan_fit(const FitJob& request, bool shank_in_the_way, const Progress& as
   check_obstacles(job.obstacles, spec.tool ? &*spec.tool : nullptr);
   Stopwatch watch(result);
   progress.step("read", 0.0);
-  const Setup setup = read_setup(job.part, job.obstacles, job.tolerance_mm, result.notes);
+  if (!part) part = read_part_of(job, spec);
+  const Setup& setup = part->setup;
+  const ClearanceScene& scene = part->scene;
+  result.notes.insert(result.notes.end(), part->notes.begin(), part->notes.end());
   job.tolerance_mm = setup.tolerance_mm;
   result.job = job;
   result.part_sha256 = setup.part.sha256;
   progress.journal->begin(journal_key(job, result.part_sha256));
-  check_axis_length(job, setup.part);
-  const ClearanceScene scene = make_clearance_scene(setup, job.obstacles, has_body(spec, job.obstacles), result.notes);
   watch.lap("read");
   stop_here();
 
@@ -336,7 +352,11 @@ Result plan_fit(const FitJob& request, bool shank_in_the_way, const Progress& as
 }  // namespace
 
 Result run_fit(const FitJob& request, const Progress& asked) {
-  return with_room_for_shank<FitJob>(request, false, plan_fit, asked);
+  std::optional<ReadPart> part;
+  const ShankPlan<FitJob> plan = [&](const FitJob& job, bool in_the_way, const Progress& progress) {
+    return plan_fit(job, in_the_way, progress, part);
+  };
+  return with_room_for_shank<FitJob>(request, false, plan, asked);
 }
 
 }  // namespace flank
