@@ -249,6 +249,16 @@ struct TurnFigure {
   Vec3 point = Vec3::Zero();  ///< the tip where it turns, mm
 };
 
+/// What a tool leaves where it bends under the forces of the cut, beside what a stiff one leaves (docs/algorithms/machine.md). By samples of the
+/// targets, and only where a load is known.
+struct BendingReport {
+  double overcut_mm = 0.0, undercut_mm = 0.0;            ///< of a stiff tool
+  double bent_overcut_mm = 0.0, bent_undercut_mm = 0.0;  ///< of this one
+  double least_mm = 0.0, most_mm = 0.0;                  ///< what bending adds to f
+  Vec3 most_point = Vec3::Zero();                        ///< of the face: where it adds most
+  std::size_t samples = 0;
+};
+
 /// Coverage and undercut have no part in the verdict: how much is enough is for the caller to say.
 struct VerifyReport {
   Verdict verdict = Verdict::kNotRun;
@@ -282,6 +292,8 @@ struct VerifyReport {
   std::optional<FinerReach> finer_reach;
   std::optional<TurnFigure> turn;    ///< the sharpest; none where nobody asked; not filled by judge()
   std::optional<StockReport> stock;  ///< of a program with a blank; not filled by judge()
+  /// None where nobody asked, or no load is known; not filled by judge()
+  std::optional<BendingReport> bending;
 };
 
 /// Judges a path by the samples of all its faces, targets and check surfaces. Parallel; the same bits for any number of

@@ -231,6 +231,31 @@ test('layers, colours and cameras change the picture', async () => {
   await page.close();
 });
 
+test('what a tool leaves as it bends is a map of its own', async () => {
+  const copy = join(root, 'bending');
+  cpSync(folder, copy, { recursive: true });
+  must('verify', copy, '--bending', '--material', 'titanium', '--flutes', '3', '--finish-stock', '0.3', '--quiet');
+  const { bending } = json(copy, 'verify.json'), [target] = json(copy, 'view.json').bodies.filter((body) => body.target);
+  assert.ok(bending.samples > 100 && bending.most_added_mm > 0, JSON.stringify(bending));
+  assert.equal(target.bent_mm.length, target.f_mm.length);
+  must('report', copy, '--quiet');
+  const page = await open(copy);
+  const chosen = (value) => page.value(`(() => { const s = [...document.querySelectorAll('#layers select')].find((one) => one.querySelector('[value=bent]')); s.value = '${value}'; s.dispatchEvent(new Event('change')); })()`);
+  const seen = [];
+  for (const value of ['stiff', 'bent', 'stiff']) {
+    await chosen(value);
+    await page.frames();
+    seen.push(await page.value('document.querySelector("#canvas").toDataURL()'));
+  }
+  assert.notEqual(seen[0], seen[1]);
+  assert.equal(seen[0], seen[2]);
+  assert.deepEqual(page.complaints, []);
+  await page.close();
+  const plain = await open(folder);
+  assert.equal(await plain.value(`document.querySelector('#layers [value=bent]')`), null, 'nothing to choose where nobody asked');
+  await plain.close();
+});
+
 test('everything that can be worked has a name', async () => {
   const page = await open(folder);
   const { nodes } = await page.send('Accessibility.getFullAXTree');

@@ -256,6 +256,23 @@ TEST(Acceptance, WhatIsLeftOfTheWholeFaceIsACautionAndOnDemandAReason) {
   EXPECT_TRUE(accept(whole_tool(), r, whole).pass());
 }
 
+TEST(Acceptance, BendingIsACautionWhereItTakesTheErrorBeyondTheTolerance) {
+  VerifyReport r = at_the_limits();
+  r.tolerance_mm = 0.05;
+  r.bending = BendingReport{.overcut_mm = 0.01, .undercut_mm = 0.04, .bent_overcut_mm = 0.01, .bent_undercut_mm = 0.05};
+  EXPECT_TRUE(cautions(accept(whole_tool(), r, asking(0.95)), Figure::kBending).empty()) << "within it";
+  r.bending->bent_undercut_mm = 0.062;
+  r.bending->most_point = Vec3(1, 2, 3);
+  const Acceptance bent = accept(whole_tool(), r, asking(0.95));
+  ASSERT_EQ(cautions(bent, Figure::kBending).size(), 1u);
+  EXPECT_EQ(
+      cautions(bent, Figure::kBending)[0],
+      "where the tool bends under the load, it gouges by 0.010 mm and leaves 0.062 mm (stiff: 0.010 and 0.040), by "
+      "samples; most is added at (1.000, 2.000, 3.000)");
+  r.bending->undercut_mm = 0.07;
+  EXPECT_TRUE(cautions(accept(whole_tool(), r, asking(0.95)), Figure::kBending).empty()) << "bending has made it less";
+}
+
 TEST(Acceptance, AShankOrHolderThatIsNotGivenIsACaution) {
   VerifyReport r = at_the_limits();
   r.coverage = 1.0;

@@ -71,6 +71,14 @@ VerifyReport full_report() {
                         .strip_deg = {59.5, 0.0},
                         .strip_mm3 = {55.0, 0.0},
                         .strip_mm = {100.0, 20.0}};
+  r.bending = BendingReport{.overcut_mm = 0.01,
+                            .undercut_mm = 0.02,
+                            .bent_overcut_mm = 0.005,
+                            .bent_undercut_mm = 1.0 / 30.0,
+                            .least_mm = -0.001,
+                            .most_mm = 1.0 / 70.0,
+                            .most_point = Vec3(1.0 / 3.0, 5, 6),
+                            .samples = 573};
   return r;
 }
 
@@ -126,6 +134,10 @@ TEST(VerifyJson, ReadsBackWhatItWrote) {
   EXPECT_EQ(b.stock->kinds[1].strip, -1);
   EXPECT_EQ(b.stock->cycles_deg(), 59.5);
   EXPECT_EQ(b.stock->strip_mm3, a.stock->strip_mm3);
+  ASSERT_TRUE(b.bending);
+  EXPECT_EQ(b.bending->bent_undercut_mm, 1.0 / 30.0);
+  EXPECT_EQ(b.bending->most_point, a.bending->most_point);
+  EXPECT_EQ(b.bending->samples, 573u);
 }
 
 TEST(VerifyJson, AFigureThatIsNoneIsNotReadAsInfinite) {

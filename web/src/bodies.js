@@ -16,14 +16,19 @@ export function geometry(positions, indices) {
   return out;
 }
 
-function coloured(body, tolerance, texture) {
-  const shape = geometry(body.positions, body.indices);
-  const uv = new Float32Array(2 * body.f.length);
-  for (let i = 0; i < body.f.length; ++i) {
-    uv[2 * i] = body.f[i] / tolerance;
+/** Where an error has its colour. */
+function colourPlaces(f, tolerance) {
+  const uv = new Float32Array(2 * f.length);
+  for (let i = 0; i < f.length; ++i) {
+    uv[2 * i] = f[i] / tolerance;
     uv[2 * i + 1] = 0.5;
   }
-  shape.setAttribute('uv', new BufferAttribute(uv, 2));
+  return new BufferAttribute(uv, 2);
+}
+
+function coloured(body, tolerance, texture) {
+  const shape = geometry(body.positions, body.indices);
+  shape.setAttribute('uv', colourPlaces(body.f, tolerance));
   const mesh = new Mesh(shape, wall({ map: texture }));
   mesh.userData.body = body;
   return mesh;
@@ -135,6 +140,7 @@ export class PartModel {
   /** `struck`: the collisions of worst.js; a face that one of them names is drawn by itself. */
   constructor(bodies, tolerance, struck = []) {
     this.root = new Group();
+    this.tolerance = tolerance;
     this.span = SPANS[0];
     this.colours = true;
     this.textures = { target: new ErrorTexture(), entered: new ErrorTexture() };
@@ -167,6 +173,19 @@ export class PartModel {
     this.otherEdges.visible = look !== 'hidden';
     for (const mesh of this.others) veil(mesh, look, mesh === this.calm ? SEE_THROUGH : 2 * SEE_THROUGH);
     this.otherEdges.material.opacity = look === 'see-through' ? 0.25 : 0.45;
+  }
+
+  /** Whether it is known what a tool that bends leaves. */
+  get bends() {
+    return this.targets.some((mesh) => mesh.userData.body.bent);
+  }
+
+  /** The error of a tool that bends under the load, or of a stiff one. */
+  showBent(on) {
+    for (const { geometry: shape, userData } of this.targets) {
+      userData.shown = on && userData.body.bent ? userData.body.bent : userData.body.f;
+      shape.setAttribute('uv', colourPlaces(userData.shown, this.tolerance));
+    }
   }
 
   /** `span`: the end of the scale in tolerances. */

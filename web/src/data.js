@@ -55,6 +55,7 @@ export function readBody(body) {
     positions: points(body.positions, body.box),
     indices: indices(body.indices, 3 * body.triangles),
     f: body.f_mm ? floats(body.f_mm) : null,
+    bent: body.bent_mm ? floats(body.bent_mm) : null,
     gap: body.gap_mm ? floats(body.gap_mm) : null,
     borders: points(body.borders, body.box),
     borderCounts: body.border_counts,

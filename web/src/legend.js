@@ -24,7 +24,7 @@ function bar(y, span) {
 export function legend(tolerance, span) {
   const y = (x) => TOP + ((span - x) / (2 * span)) * HEIGHT;
   const below = TOP + HEIGHT;
-  const root = svg('svg', { viewBox: '0 0 112 304', width: 112, height: 304, role: 'img',
+  const root = svg('svg', { viewBox: '0 0 122 304', width: 122, height: 304, role: 'img',
     'aria-label': `Colours of the signed error: pale near zero, a jump at the tolerance of ${format.tolerance(tolerance)}, blue where material is left, red where the face is gouged, grey where it is not machined` });
   root.append(...bar(y, span));
   for (const x of labels(span)) {

@@ -109,6 +109,10 @@ export class View {
     const first = largest < 1 ? largest : SPANS[0];
     range.value = String(first);
     range.addEventListener('change', () => this.showScale(Number(range.value)));
+    if (this.part.bends) {
+      const tool = select('Error of', [['stiff', 'a stiff tool'], ['bent', 'the tool as it bends']]);
+      tool.addEventListener('change', () => { this.part.showBent(tool.value === 'bent'); this.stage.draw(); });
+    }
     this.others = select('Other faces', OTHERS.map((look) => [look, look]));
     this.others.addEventListener('change', () => { this.showOthers(); this.stage.draw(); });
     if (!this.part.others.length && !this.fixtures.meshes.length) this.others.parentElement.hidden = true;
@@ -166,7 +170,8 @@ export class View {
       return d < best.d ? { k, d } : best;
     }, { k: face.a, d: Infinity }).k;
     const at = [point.x, point.y, point.z].map((v) => format.plain(v, 4)).join(', ');
-    if (!body.target && body.f[nearest] >= 0) return `${body.face}  at (${at}): not gouged`;
-    return `${body.face}  ${format.error(body.f[nearest])}  at (${at})`;
+    const error = (object.userData.shown ?? body.f)[nearest];
+    if (!body.target && error >= 0) return `${body.face}  at (${at}): not gouged`;
+    return `${body.face}  ${format.error(error)}  at (${at})`;
   }
 }

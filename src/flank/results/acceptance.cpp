@@ -161,6 +161,20 @@ void add_turn(const VerifyReport& report, const JudgeRequest& request, Acceptanc
                          report.turn->angle_deg, request.most_turn_deg, report.turn->strip + 1, p.x(), p.y(), p.z()));
 }
 
+/// Feeds can be lowered, and a second pass takes what a first one leaves: what bending adds is no fault of the path.
+void add_bending(const VerifyReport& report, Acceptance& out) {
+  if (!report.bending) return;
+  const BendingReport& b = *report.bending;
+  const auto beyond = [&](double stiff, double bent) { return bent > report.tolerance_mm && bent > stiff; };
+  if (!beyond(b.overcut_mm, b.bent_overcut_mm) && !beyond(b.undercut_mm, b.bent_undercut_mm)) return;
+  add_caution(
+      out, Figure::kBending,
+      fmt::format("where the tool bends under the load, it gouges by {:.3f} mm and leaves {:.3f} mm (stiff: {:.3f} and "
+                  "{:.3f}), by samples; most is added at ({:.3f}, {:.3f}, {:.3f})",
+                  b.bent_overcut_mm, b.bent_undercut_mm, b.overcut_mm, b.undercut_mm, b.most_point.x(),
+                  b.most_point.y(), b.most_point.z()));
+}
+
 /// Whether anything could hold the tool, and what of that was not given.
 void add_hold(const Tool& tool, const VerifyReport& report, Acceptance& out) {
   if (report.hold && !report.hold->axis.kept) {
@@ -226,6 +240,7 @@ Acceptance accept(const Tool& tool, const VerifyReport& report, const JudgeReque
   add_whole(report, request, out);
   add_turn(report, request, out);
   add_hold(tool, report, out);
+  add_bending(report, out);
   for (const ClearanceFigure& f : report.clearance.figures)
     if (!f.kept) add_reason(out, Figure::kClearance, lost_clearance(f));
   return out;

@@ -47,6 +47,7 @@ enum class Figure {
   kSetup,          ///< what a program's header says of the set-up contradicts itself
   kProgramPath,    ///< a program does not run the path that it was made of
   kTurn,           ///< the motion has a kink
+  kBending,        ///< what a tool that bends leaves, where a load is known
   kCount
 };
 
@@ -84,7 +85,8 @@ inline constexpr std::array<std::string_view, static_cast<std::size_t>(Figure::k
     "machine",
     "setup",
     "program_path",
-    "turn"};
+    "turn",
+    "bending"};
 
 /// "overcut_mm".
 [[nodiscard]] constexpr std::string_view figure_name(Figure figure) {

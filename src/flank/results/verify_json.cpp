@@ -56,6 +56,24 @@ Json to_json(const WorstPlace& w) {
           {"t", number(w.t)},    {"s_mm", number(w.s)}};
 }
 
+Json to_json(const BendingReport& b) {
+  return {{"overcut_mm", number(b.overcut_mm)},           {"undercut_mm", number(b.undercut_mm)},
+          {"bent_overcut_mm", number(b.bent_overcut_mm)}, {"bent_undercut_mm", number(b.bent_undercut_mm)},
+          {"least_added_mm", number(b.least_mm)},         {"most_added_mm", number(b.most_mm)},
+          {"most_added_point", point(b.most_point)},      {"samples", b.samples}};
+}
+
+BendingReport bending_from(const Json& j) {
+  return {.overcut_mm = to_number(j.at("overcut_mm")),
+          .undercut_mm = to_number(j.at("undercut_mm")),
+          .bent_overcut_mm = to_number(j.at("bent_overcut_mm")),
+          .bent_undercut_mm = to_number(j.at("bent_undercut_mm")),
+          .least_mm = to_number(j.at("least_added_mm")),
+          .most_mm = to_number(j.at("most_added_mm")),
+          .most_point = to_point(j.at("most_added_point")),
+          .samples = j.at("samples").get<std::size_t>()};
+}
+
 /// at() throws for a field that is missing, get() for one of the wrong type: verify_from_json names the file.
 WorstPlace place_from(const Json& j) {
   WorstPlace w;
@@ -261,6 +279,7 @@ VerifyReport report_from(const Json& j) {
     r.turn = {to_number(turn.at("angle_deg")), turn.at("strip").get<std::size_t>() - 1, to_point(turn.at("point"))};
   }
   if (j.contains("stock")) r.stock = stock_from_json(j.at("stock"));
+  if (j.contains("bending")) r.bending = bending_from(j.at("bending"));
   return r;
 }
 
@@ -338,6 +357,7 @@ std::string verify_to_json(const VerifyReport& r, const Acceptance& acceptance) 
     j["turn"] = {
         {"angle_deg", number(r.turn->angle_deg)}, {"strip", r.turn->strip + 1}, {"point", point(r.turn->point)}};
   if (r.stock) j["stock"] = stock_to_json(*r.stock);
+  if (r.bending) j["bending"] = to_json(*r.bending);
   return dumped(j, 2) + "\n";
 }
 

@@ -101,6 +101,7 @@ Json body_json(const ViewFace& body) {
             {"border_counts", counts},
             {"borders", to_base64(quantised(border, box))}};
   if (!body.f_mm.empty()) j["f_mm"] = to_base64(as_floats(body.f_mm));
+  if (!body.bent_mm.empty()) j["bent_mm"] = to_base64(as_floats(body.bent_mm));
   if (!body.gap_mm.empty()) j["gap_mm"] = to_base64(as_floats(body.gap_mm));
   return j;
 }

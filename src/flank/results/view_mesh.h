@@ -17,6 +17,8 @@ struct ViewFace {
   std::vector<std::vector<Vec3>> borders;  ///< polylines
   /// Swept distance at the vertices, mm; empty for a check surface that the judge did not find entered.
   std::vector<double> f_mm;
+  /// The same of a tool that bends, where that is asked for (pipeline/load/bending.h); else empty.
+  std::vector<double> bent_mm;
   /// About how far the vertices stay from the tool's bodies, mm, negative inside: of fixtures, and of check surfaces that a
   /// shank or holder comes too near to; else empty (view_gaps.h).
   std::vector<double> gap_mm;

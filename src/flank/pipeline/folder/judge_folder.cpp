@@ -9,6 +9,7 @@
 
 #include "flank/base/tolerance_budget.h"
 #include "flank/error.h"
+#include "flank/geom/mesh_topology.h"
 #include "flank/io/face_names.h"
 #include "flank/io/path/blank_json.h"
 #include "flank/io/path/engagement_json.h"
@@ -123,6 +124,19 @@ void judge_steps(const std::string& folder, const std::optional<WheelPlan>& plan
   if (roughing) outcome.notes.push_back(roughing_text(*roughing));
 }
 
+/// `bending`: of the tool, where it is asked for and a load is known.
+View view_of(const Verification& outcome, const Setup& setup, const Tool& tool, const Path& path,
+             const BendingTool* bending) {
+  View view = make_view(outcome.job, setup, tool, path, outcome.report);
+  if (!bending) return view;
+  for (ViewFace& body : view.bodies) {
+    if (!body.target || body.f_mm.empty()) continue;
+    for (const BentPlace& place : bending->at(body.mesh.vertices, vertex_normals(body.mesh)))
+      body.bent_mm.push_back(place.f + place.added);
+  }
+  return view;
+}
+
 /// `named`: the part, as job.json has it.
 template <class Job>
 Verification judge_path(const VerifyJob& request, const Job& job, const std::string& named, ResultFolder& folder) {
@@ -150,11 +164,15 @@ Verification judge_path(const VerifyJob& request, const Job& job, const std::str
   const ClearanceScene scene = make_clearance_scene(setup, job.obstacles, has_body(tool), outcome.notes);
   measure_bodies(scene, tool, path, outcome.report);
   const FolderStock stock = replay_stock(job, setup, tool, path, file("blank.json"), outcome);
-  if (request.bending.on)
-    for (std::string& note :
-         bending_notes(request.bending, stock.arcs, setup, tool, SweptVolume(judged_tool(setup, tool), path), path,
-                       coarse_spacing(setup, kMostBent)))
-      outcome.notes.push_back(std::move(note));
+  std::optional<SweptVolume> volume;
+  std::optional<BendingTool> bending;
+  if (request.bending.on) {
+    volume.emplace(judged_tool(setup, tool), path);
+    bending.emplace(request.bending, stock.arcs, setup, tool, path, *volume);
+    const double spacing = coarse_spacing(setup, kMostBent);
+    outcome.report.bending = bending->report(judge_samples(setup, spacing, spacing));
+    for (std::string& note : bending->notes(outcome.report.bending)) outcome.notes.push_back(std::move(note));
+  }
   outcome.acceptance = accept(tool, outcome.report, job.judge);
   accept_program(job, outcome);
   const BendRadii bends =
@@ -163,7 +181,7 @@ Verification judge_path(const VerifyJob& request, const Job& job, const std::str
   judge_steps(request.folder, plan, setup, path, outcome);
   std::map<std::string, std::string> files{
       {"verify.json", verify_to_json(outcome.report, outcome.acceptance)},
-      {"view.json", view_to_json(make_view(outcome.job, setup, tool, path, outcome.report))}};
+      {"view.json", view_to_json(view_of(outcome, setup, tool, path, outcome.report.bending ? &*bending : nullptr))}};
   if (!stock.engagement.empty()) files["engagement.json"] = engagement_to_json(stock.engagement, stock.arcs);
   write_verdict(folder, {absolute(request.part ? *request.part : named), setup.part.sha256}, files, outcome);
   return outcome;

@@ -7,34 +7,13 @@
 #include <numbers>
 #include <optional>
 
+#include "flank/base/assert.h"
 #include "flank/base/parallel.h"
 #include "flank/error.h"
 #include "flank/pipeline/load/known_feeds.h"
 #include "flank/setup/targets.h"
 
 namespace flank::internal {
-namespace {
-
-/// One sample, stiff and bent.
-struct BentSample {
-  double f = 0.0, added = 0.0;
-  bool loaded = false;
-};
-
-BentSample bent_sample(const Tool& tool, const Path& path, const PathArcs& arcs, const PathLoads& loads,
-                       const CuttingRequest& request, const SweptDistance& at, const Vec3& normal) {
-  BentSample out{.f = at.f};
-  const auto strip = static_cast<std::size_t>(at.strip);
-  const std::vector<Pose>& poses = path.strips[strip].poses;
-  const auto k = std::min(static_cast<std::size_t>(std::lround(at.t)), poses.size() - 1);
-  if (arcs.strips[strip][k].empty()) return out;
-  out.loaded = true;
-  out.added = bent_along(tool, request, arcs.heights, arcs.strips[strip][k], poses, {at.t, at.s, normal},
-                         1.0 / loads.slowness[strip][k]);
-  return out;
-}
-
-}  // namespace
 
 double bent_along(const Tool& tool, const CuttingRequest& request, const std::vector<double>& heights,
                   const std::vector<EngagedArc>& arcs, const std::vector<Pose>& poses, const MadeBy& place,
@@ -58,36 +37,67 @@ double bent_along(const Tool& tool, const CuttingRequest& request, const std::ve
   return moved.dot(place.normal);
 }
 
-Bending bending_of(const std::vector<FaceSamples>& faces, const SweptVolume& volume, const Tool& tool, const Path& path,
-                   const PathArcs& arcs, const PathLoads& loads, const CuttingRequest& request) {
-  Bending out;
-  for (const FaceSamples& face : faces) {
-    if (!face.target || face.normals.size() != face.points.size()) continue;
-    std::vector<BentSample> bent(face.points.size());
-    parallel_for(face.points.size(), [&](std::size_t k) {
-      const SweptDistance at = volume.distance(face.points[k]);
-      if (at.strip >= 0 && at.f < 1e100) bent[k] = bent_sample(tool, path, arcs, loads, request, at, face.normals[k]);
-    });
-    for (std::size_t k = 0; k < bent.size(); ++k) {
-      if (!bent[k].loaded) continue;
-      ++out.samples;
-      const double f = bent[k].f, with = f + bent[k].added;
-      out.overcut_mm = std::max(out.overcut_mm, -f), out.undercut_mm = std::max(out.undercut_mm, f);
-      out.bent_overcut_mm = std::max(out.bent_overcut_mm, -with);
-      out.bent_undercut_mm = std::max(out.bent_undercut_mm, with);
-      out.least_mm = std::min(out.least_mm, bent[k].added);
-      if (bent[k].added > out.most_mm) out.most_mm = bent[k].added, out.most_point = face.points[k];
-    }
-  }
+BendingTool::BendingTool(const BendingRequest& asked, const PathArcs& known, const Setup& setup, const Tool& tool,
+                         const Path& path, const SweptVolume& volume)
+    : tool_(tool), path_(path), volume_(volume), arcs_(engaged_arcs(known, asked.finish_stock_mm, setup, tool, path)) {
+  if (!knows_load()) return;
+  cutting_ = usual_cutting(find_material(*asked.material), *asked.flutes, asked.helix_deg * std::numbers::pi / 180.0,
+                           largest_diameter(tool));
+  loads_ = path_loads(tool, path, arcs_, cutting_);
+}
+
+BentPlace BendingTool::bent(const SweptDistance& at, const Vec3& normal) const {
+  BentPlace out{.f = at.f};
+  if (at.strip < 0 || !(at.f < 1e100)) return out;
+  const auto strip = static_cast<std::size_t>(at.strip);
+  const std::vector<Pose>& poses = path_.strips[strip].poses;
+  const auto k = std::min(static_cast<std::size_t>(std::lround(at.t)), poses.size() - 1);
+  if (arcs_.strips[strip][k].empty()) return out;
+  out.loaded = true;
+  out.added = bent_along(tool_, cutting_, arcs_.heights, arcs_.strips[strip][k], poses, {at.t, at.s, normal},
+                         1.0 / loads_.slowness[strip][k]);
   return out;
 }
 
-std::string bending_text(const Bending& b) {
-  if (b.samples == 0) return "bending: not calculated, because no load is known on these faces";
+std::vector<BentPlace> BendingTool::at(const std::vector<Vec3>& points, const std::vector<Vec3>& normals) const {
+  FLANK_ASSERT(knows_load() && points.size() == normals.size());
+  std::vector<BentPlace> places(points.size());
+  parallel_for(points.size(), [&](std::size_t k) { places[k] = bent(volume_.distance(points[k]), normals[k]); });
+  return places;
+}
+
+std::optional<BendingReport> BendingTool::report(const std::vector<FaceSamples>& faces) const {
+  if (!knows_load()) return std::nullopt;
+  BendingReport out;
+  for (const FaceSamples& face : faces) {
+    if (!face.target || face.normals.size() != face.points.size()) continue;
+    const std::vector<BentPlace> places = at(face.points, face.normals);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      if (!places[k].loaded) continue;
+      ++out.samples;
+      const double f = places[k].f, with = f + places[k].added;
+      out.overcut_mm = std::max(out.overcut_mm, -f), out.undercut_mm = std::max(out.undercut_mm, f);
+      out.bent_overcut_mm = std::max(out.bent_overcut_mm, -with);
+      out.bent_undercut_mm = std::max(out.bent_undercut_mm, with);
+      out.least_mm = std::min(out.least_mm, places[k].added);
+      if (places[k].added > out.most_mm) out.most_mm = places[k].added, out.most_point = face.points[k];
+    }
+  }
+  if (out.samples == 0) return std::nullopt;
+  return out;
+}
+
+std::vector<std::string> BendingTool::notes(const std::optional<BendingReport>& report) const {
+  if (!knows_load()) return {"bending: no load is known; give what roughing has left by `finish_stock`"};
+  std::vector<std::string> notes = load_notes(loads_, path_, cutting_);
+  notes.push_back(report ? bending_text(*report) : "bending: not calculated, because no load is known on these faces");
+  return notes;
+}
+
+std::string bending_text(const BendingReport& b) {
   return fmt::format(
       "bending adds {:.2f} to {:.2f} um of excess material, most at ({:.2f}, {:.2f}, {:.2f}); by samples the gouge is "
-      "{:.4f} mm, "
-      "without bending {:.4f}, the excess material {:.4f} mm, without bending {:.4f}",
+      "{:.4f} mm, without bending {:.4f}, the excess material {:.4f} mm, without bending {:.4f}",
       1e3 * b.least_mm, 1e3 * b.most_mm, b.most_point.x(), b.most_point.y(), b.most_point.z(), b.bent_overcut_mm,
       b.overcut_mm, b.bent_undercut_mm, b.undercut_mm);
 }
@@ -103,20 +113,6 @@ void require_bending(const BendingRequest& request) {
   if (!request.material) throw UsageError("bending", "needs a `material`: forces are not known without one");
   if (!request.flutes) throw UsageError("bending", "needs `flutes`: forces are not known without them");
   (void)find_material(*request.material);
-}
-
-std::vector<std::string> bending_notes(const BendingRequest& asked, const PathArcs& known, const Setup& setup,
-                                       const Tool& tool, const SweptVolume& volume, const Path& path,
-                                       double spacing_mm) {
-  const PathArcs arcs = engaged_arcs(known, asked.finish_stock_mm, setup, tool, path);
-  if (arcs.heights.empty()) return {"bending: no load is known; give what roughing has left by `finish_stock`"};
-  const CuttingRequest cutting = usual_cutting(find_material(*asked.material), *asked.flutes,
-                                               asked.helix_deg * std::numbers::pi / 180.0, largest_diameter(tool));
-  const PathLoads loads = path_loads(tool, path, arcs, cutting);
-  std::vector<std::string> notes = load_notes(loads, path, cutting);
-  notes.push_back(
-      bending_text(bending_of(judge_samples(setup, spacing_mm, spacing_mm), volume, tool, path, arcs, loads, cutting)));
-  return notes;
 }
 
 }  // namespace flank::internal

@@ -1,6 +1,7 @@
 /// What a tool leaves when it bends: how far it gives way at the instant at which an edge makes the surface.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,28 +28,42 @@ struct MadeBy {
 /// Throws UsageError for what is missing.
 void require_bending(const BendingRequest& request);
 
-/// Of the targets that a path finishes.
-struct Bending {
-  double overcut_mm = 0.0,
-         undercut_mm = 0.0;  ///< of the surface that a stiff tool leaves, where it passes; as the judge has them
-  double bent_overcut_mm = 0.0, bent_undercut_mm = 0.0;  ///< of the one that this tool leaves
-  double least_mm = 0.0, most_mm = 0.0;                  ///< what bending adds to f
-  Vec3 most_point = Vec3::Zero();
-  std::size_t samples = 0;  ///< with a load
+/// A place of a target.
+struct BentPlace {
+  double f = 0.0;       ///< of a stiff tool, mm; infinite where nothing comes near
+  double added = 0.0;   ///< by bending, mm
+  bool loaded = false;  ///< a load is known there
 };
-/// `volume`: of the path, as the judge has its tool.
-[[nodiscard]] Bending bending_of(const std::vector<FaceSamples>& faces, const SweptVolume& volume, const Tool& tool,
-                                 const Path& path, const PathArcs& arcs, const PathLoads& loads,
-                                 const CuttingRequest& request);
 
-/// The same as sentences, at the feeds that a program takes with this material. `known`: of the replay of a stock.
-[[nodiscard]] std::vector<std::string> bending_notes(const BendingRequest& asked, const PathArcs& known,
-                                                     const Setup& setup, const Tool& tool, const SweptVolume& volume,
-                                                     const Path& path, double spacing_mm);
+/// A tool that bends on a path, at the feeds that a program takes with this material.
+class BendingTool {
+ public:
+  /// `known`: arcs of the replay of a stock. `volume`: of the path, with the tool as the judge has it. Tool, path and volume must outlive this.
+  BendingTool(const BendingRequest& asked, const PathArcs& known, const Setup& setup, const Tool& tool,
+              const Path& path, const SweptVolume& volume);
 
-/// Places that are looked at, of all targets together, about.
+  [[nodiscard]] bool knows_load() const { return !arcs_.heights.empty(); }
+  /// Of places with their normals, towards the tool.
+  [[nodiscard]] std::vector<BentPlace> at(const std::vector<Vec3>& points, const std::vector<Vec3>& normals) const;
+  /// Of samples of the targets; none where no load is known.
+  [[nodiscard]] std::optional<BendingReport> report(const std::vector<FaceSamples>& faces) const;
+  /// Of the loads, and of what the report says.
+  [[nodiscard]] std::vector<std::string> notes(const std::optional<BendingReport>& report) const;
+
+ private:
+  [[nodiscard]] BentPlace bent(const SweptDistance& at, const Vec3& normal) const;
+
+  const Tool& tool_;
+  const Path& path_;
+  const SweptVolume& volume_;
+  PathArcs arcs_;
+  CuttingRequest cutting_;
+  PathLoads loads_;
+};
+
+/// Places that are looked at for the report, of all targets together, about.
 inline constexpr double kMostBent = 4000.0;
 
-[[nodiscard]] std::string bending_text(const Bending& bending);
+[[nodiscard]] std::string bending_text(const BendingReport& bending);
 
 }  // namespace flank::internal
