@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <queue>
+#include <vector>
 
 namespace flank::internal {
 namespace {
@@ -11,9 +12,42 @@ namespace {
 constexpr double kBehind = 0.5;  ///< of the radius, by which a centre may be behind a sheet's plane
 /// Of the radius: so far from all faces it is certain on which side of its triangles a point is.
 constexpr double kCertain = 0.3;
+constexpr double kLeastDistance = 1e-3;  ///< of the radius, of a face from a centre that has a direction
 constexpr double kRounding = 1e-11;  ///< of the size: what a footpoint may be off, with what sums of its coordinates lose
 
-/// A cube of centres. What a ball leaves and cuts changes by no more than its centre moves, so it is at least `least_mm` in all of it.
+/// What a ball leaves at the site, or cuts at one point of a face: if its centre moves by d, at least value + slope.dot(d) - bend d.dot(d).
+struct Limit {
+  double value = 0.0;
+  Vec3 slope = Vec3::Zero();  ///< of length 1
+  double bend = 0.0;
+};
+
+/// The largest of the limits is nowhere within `reach` less than this. Any mean of them is no more than the largest, and where slopes
+/// cancel it hardly falls: the mean is mixed, one limit after another, so that this is large.
+double least_of_largest(const std::vector<Limit>& limits, double reach) {
+  constexpr int kRounds = 4;
+  const auto level = [&](const Limit& limit) { return limit.value - limit.bend * reach * reach; };
+  const auto first = std::max_element(limits.begin(), limits.end(),
+                                      [&](const Limit& a, const Limit& b) { return level(a) < level(b); });
+  double mean = level(*first);
+  Vec3 slope = first->slope;
+  for (int round = 0; round < kRounds; ++round)
+    for (const Limit& limit : limits) {
+      // The share t of this limit at which mean + t (level - mean) - reach |slope + t way| is largest.
+      const Vec3 way = limit.slope - slope;
+      const double length = way.norm(), gain = level(limit) - mean;
+      if (length < 1e-9) continue;
+      const double along = slope.dot(way) / length, off = std::sqrt(std::max(0.0, slope.squaredNorm() - along * along));
+      const double m = gain / (reach * length);
+      const double best = std::abs(m) >= 1.0 ? (m > 0.0 ? 1.0 : 0.0) : (m * off / std::sqrt(1.0 - m * m) - along) / length;
+      const double share = std::clamp(best, 0.0, 1.0);
+      mean += share * gain;
+      slope += share * way;
+    }
+  return mean - reach * slope.norm();
+}
+
+/// A cube of centres. In all of it a ball leaves or cuts at least `least_mm`.
 struct Cube {
   Vec3 middle;
   double half = 0.0, least_mm = 0.0;
@@ -35,7 +69,8 @@ class Search {
   LeastError run() {
     // The ball that would be the best on the face alone; where it is in a solid, the one of no use.
     result_.centre = point_ + radius_ * normal_;
-    const double clear = clear_of(result_.centre);
+    std::vector<Limit> limits;
+    const double clear = clear_of(result_.centre, limits);
     result_.found_mm = buried(result_.centre, clear) ? radius_ : radius_ - clear;
     result_.cubes = 1;
     if (!enough()) {
@@ -54,12 +89,17 @@ class Search {
   /// What the ball about the centre leaves at the point.
   [[nodiscard]] double left_by(const Vec3& centre) const { return (centre - point_).norm() - radius_; }
 
-  /// How far the centre is from all faces, at most a radius.
-  [[nodiscard]] double clear_of(const Vec3& centre) const {
+  /// How far the centre is from all faces, at most a radius. `limits`: gets how deep a ball about it cuts each of them.
+  double clear_of(const Vec3& centre, std::vector<Limit>& limits) const {
     double nearest = radius_;
     for (const Target* face : scene_.faces) {
-      const Footpoint foot = face->closest_within(centre, nearest);
-      if (foot.patch >= 0) nearest = std::min(nearest, (centre - foot.point).norm());
+      const Footpoint foot = face->closest_within(centre, radius_);
+      if (foot.patch < 0) continue;
+      const Vec3 away = centre - foot.point;
+      const double distance = away.norm();
+      nearest = std::min(nearest, distance);
+      // Nearer than this the ball cuts by nearly all of its radius.
+      if (distance > kLeastDistance * radius_) limits.push_back({radius_ - distance, -away / distance, 0.5 / distance});
     }
     return nearest;
   }
@@ -78,13 +118,18 @@ class Search {
     const double left = left_by(cube.middle);
     if (left - reach >= result_.found_mm) return;
     cube.index = ++result_.cubes;
-    const double clear = clear_of(cube.middle), error = std::max(left, radius_ - clear);
+    limits_.clear();
+    const double clear = clear_of(cube.middle, limits_), error = std::max(left, radius_ - clear);
+    const Vec3 away = cube.middle - point_;
+    if (const double off = away.norm(); off > 0.0) limits_.push_back({left, away / off, 0.0});
     cube.least_mm = std::max(least_mm, error - reach);
+    if (!limits_.empty()) cube.least_mm = std::max(cube.least_mm, least_of_largest(limits_, reach));
     if (cube.least_mm >= result_.found_mm) return;
-    const bool inside = buried(cube.middle, clear);
-    // No face is in the cube: all of it is in the solid.
-    if (inside && reach < clear) return;
-    if (error < result_.found_mm && !inside && (scene_.of_solid || height >= behind)) {
+    // Where no face is in the cube, all of it is in the solid, or none.
+    const bool whole = reach < clear, better = error < result_.found_mm && (scene_.of_solid || height >= behind);
+    const bool inside = (whole || better) && buried(cube.middle, clear);
+    if (inside && whole) return;
+    if (better && !inside) {
       result_.found_mm = error;
       result_.centre = cube.middle;
     }
@@ -106,6 +151,7 @@ class Search {
   const BallSearch options_;
   double rounding_ = 0.0;
   std::priority_queue<Cube> open_;
+  std::vector<Limit> limits_;  ///< of one cube; kept for its memory
   LeastError result_;
 };
 
