@@ -6,7 +6,6 @@
 
 #include <memory>
 
-#include "flank/bound/free_bound.h"
 #include "flank/bound/run_bound.h"
 #include "flank/printable.h"
 #include "job_options.h"
@@ -40,7 +39,8 @@ int run_free(const BoundJob& job, const std::string& folder, const CommonOptions
 
 Subcommand add_bound(CLI::App& parser) {
   CLI::App* app = parser.add_subcommand(
-      "bound", "Prove what a tool cannot do on a face: the least error, longest contact, and areas it can never finish");
+      "bound",
+      "Prove what a tool cannot do on a face: the least error, longest contact, and areas it can never finish");
   auto job = std::make_shared<BoundJob>();
   auto folder = std::make_shared<std::string>();
   FlagNames names = add_job_options(*app, *job);

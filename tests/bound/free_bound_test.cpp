@@ -18,8 +18,8 @@ TEST(FreeBound, OfAnExactEnvelopeIsNone) {
     for (const Face& face : example.faces) {
       const auto target = make_target({face});
       const double radius = example.truth->tool.radial.smallest();
-      const BallBound bound =
-          ball_bound(*target, {.faces = {target.get()}}, {.radius_mm = radius, .spacing_mm = std::sqrt(target->area() / 300.0)}, {});
+      const BallBound bound = ball_bound(*target, {.faces = {target.get()}},
+                                         {.radius_mm = radius, .spacing_mm = std::sqrt(target->area() / 300.0)}, {});
       EXPECT_LE(bound.bound_mm, 2e-6 * target->diagonal()) << name;
     }
   }

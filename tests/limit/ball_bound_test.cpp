@@ -14,9 +14,7 @@ namespace {
 /// A floor beside a wall: 20 by 10 mm, the wall at x = 0.
 class FloorTarget : public PlaneTarget {
  public:
-  FloorTarget() : PlaneTarget(Vec3::Zero(), Vec3::UnitZ()) {
-    area_ = 200.0;
-  }
+  FloorTarget() : PlaneTarget(Vec3::Zero(), Vec3::UnitZ()) { area_ = 200.0; }
   [[nodiscard]] Footpoint closest_within(const Vec3& p, double horizon_mm) const override {
     Footpoint foot;
     foot.point = Vec3(std::clamp(p.x(), 0.0, 20.0), std::clamp(p.y(), 0.0, 10.0), 0.0);
@@ -88,8 +86,8 @@ TEST(BallBound, FinerNetsNeverLowerIt) {
   const Corner corner;
   double before = 0.0;
   for (const int levels : {1, 2, 3, 5, 7}) {
-    const BallBound bound =
-        ball_bound(corner.floor, corner.scene, {.radius_mm = 2.0, .spacing_mm = 1.5, .gap = 0.01, .levels = levels}, {});
+    const BallBound bound = ball_bound(corner.floor, corner.scene,
+                                       {.radius_mm = 2.0, .spacing_mm = 1.5, .gap = 0.01, .levels = levels}, {});
     EXPECT_GE(bound.bound_mm, before * (1.0 - 1e-12)) << levels;
     before = bound.bound_mm;
   }
@@ -99,8 +97,8 @@ TEST(BallBound, FinerNetsNeverLowerIt) {
 /// Within r - sqrt(4 r e) of the wall, nearly, no ball touches within e.
 TEST(BallBound, TellsTheAreaThatNoToolFinishes) {
   const Corner corner;
-  const BallBound bound =
-      ball_bound(corner.floor, corner.scene, {.radius_mm = 4.0, .tolerance_mm = 0.01, .spacing_mm = 0.5, .levels = 1}, {});
+  const BallBound bound = ball_bound(corner.floor, corner.scene,
+                                     {.radius_mm = 4.0, .tolerance_mm = 0.01, .spacing_mm = 0.5, .levels = 1}, {});
   const double width = 4.0 - 0.01 - std::sqrt(4.0 * 4.0 * 0.01);
   EXPECT_LE(bound.out_of_reach_mm2, 10.0 * (width + 0.25));
   EXPECT_GE(bound.out_of_reach_mm2, 10.0 * (width - 0.5));
@@ -109,7 +107,9 @@ TEST(BallBound, TellsTheAreaThatNoToolFinishes) {
 TEST(BallBound, IsTheSameForAnyNumberOfThreads) {
   const FloorTarget floor;
   const PlaneTarget wall(Vec3::Zero(), Vec3(1, 0.3, 0.2));
-  const auto run = [&] { return ball_bound(floor, {.faces = {&floor, &wall}}, {.radius_mm = 2.0, .spacing_mm = 2.0}, {}); };
+  const auto run = [&] {
+    return ball_bound(floor, {.faces = {&floor, &wall}}, {.radius_mm = 2.0, .spacing_mm = 2.0}, {});
+  };
   set_thread_count(1);
   const BallBound one = run();
   set_thread_count(0);

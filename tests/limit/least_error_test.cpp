@@ -62,7 +62,8 @@ TEST(LeastError, IsNotReachedByAnyBall) {
   double best = 1e9;
   for (int k = 0; k < 20000; ++k) {
     const double r = 3.0 + (k % 2) * random.uniform(0.0, 2.0);
-    const Vec3 centre = error.centre + random.uniform(0.0, 1.5) * Vec3(random.normal(), random.normal(), random.normal());
+    const Vec3 centre =
+        error.centre + random.uniform(0.0, 1.5) * Vec3(random.normal(), random.normal(), random.normal());
     if (centre.z() < -1.5) continue;
     double worst = (centre - site).norm() - r;
     for (const Target* face : faces.faces) worst = std::max(worst, r - std::abs(face->closest(centre).distance));
@@ -79,8 +80,9 @@ TEST(LeastError, GrowsWithTheRadiusAndEndsEarlyWhereItIsEnough) {
     const LeastError error = least_error(Vec3::Zero(), Vec3::UnitZ(), {.faces = {&floor, &wall}}, radius, {});
     EXPECT_GT(error.bound_mm, before);
     before = error.found_mm;
-    EXPECT_LT(least_error(Vec3::Zero(), Vec3::UnitZ(), {.faces = {&floor, &wall}}, radius, {.enough_mm = 0.3 * radius}).cubes,
-              error.cubes);
+    EXPECT_LT(
+        least_error(Vec3::Zero(), Vec3::UnitZ(), {.faces = {&floor, &wall}}, radius, {.enough_mm = 0.3 * radius}).cubes,
+        error.cubes);
   }
 }
 

@@ -33,8 +33,8 @@ std::map<int, std::vector<int>> whole_solids(const Setup& setup) {
     solids[part.faces[static_cast<std::size_t>(face)].solid].push_back(face);
   std::erase_if(solids, [&](const auto& solid) {
     return solid.first < 0 || !std::all_of(solid.second.begin(), solid.second.end(), [&](int face) {
-      return counts[static_cast<std::size_t>(face)] != 0 && !part.is_left_out(face);
-    });
+             return counts[static_cast<std::size_t>(face)] != 0 && !part.is_left_out(face);
+           });
   });
   return solids;
 }

@@ -26,6 +26,7 @@ struct BoundSetup {
 [[nodiscard]] BoundSetup read_bound_setup(const BoundJob& job, std::vector<std::string>& notes);
 
 /// Writes two files of a bound into the folder, which is made if there is none. Throws InputError, also for what the job reads.
-void write_bound_files(const BoundJob& job, const std::string& folder, const std::string& json, const std::string& text);
+void write_bound_files(const BoundJob& job, const std::string& folder, const std::string& json,
+                       const std::string& text);
 
 }  // namespace flank::internal

@@ -101,7 +101,8 @@ std::string free_bound_text(const FreeBound& result) {
                         bound.sites, bound.area_mm2);
     if (bound.bound_mm > 0.0)
       text += fmt::format(
-          "    every such tool leaves or cuts at least {:.4g} mm near ({:.4g}, {:.4g}, {:.4g}); one ball there: {:.4g} mm\n",
+          "    every such tool leaves or cuts at least {:.4g} mm near ({:.4g}, {:.4g}, {:.4g}); one ball there: {:.4g} "
+          "mm\n",
           bound.bound_mm, bound.point.x(), bound.point.y(), bound.point.z(), bound.found_mm);
     else
       text += "    nothing is proved: at every sample a ball of that radius touches freely\n";

@@ -119,8 +119,11 @@ Polished refine_exact_envelope(const Polished& polished, const std::vector<Surfa
     const CoverageEstimate &now = trial.estimate, &before = best.estimate;
     if (now.rms_mm > kEnvelopeGains * std::min(last_rms, before.rms_mm)) break;
     const double deepest = std::max(before.overcut_mm, exact_overcut(trial.draft, options.tolerance_mm));
-    const bool keeps = now.at_tolerance >= before.at_tolerance && std::max(now.overcut_mm, now.gouge_mm) <= deepest &&
-                       (now.largest_c < 1.0 || now.largest_c <= before.largest_c);
+    // Other faces may be entered by as much as the terms that keep the tool out of them allow: they end where the face begins, to
+    // the digits of their border.
+    const double entered = std::max(before.gouge_mm, kToleranceBudget.others.fit_allowance * options.tolerance_mm);
+    const bool keeps = now.at_tolerance >= before.at_tolerance && now.overcut_mm <= deepest &&
+                       now.gouge_mm <= entered && (now.largest_c < 1.0 || now.largest_c <= before.largest_c);
     if (!keeps) continue;
     best = trial;
     best.exact = true;

@@ -26,8 +26,9 @@ void visit_fields(Job& job, Visitor&& visit) {
                   "(cone:radius=2,angle=3)",
                   kAny, Spelling::kFileOrText},
         job.tool.spec);
-  visit(FieldInfo{"radius_min", "mm", "", "Smallest radius of a free tool. Default: 1 % of the face's diagonal", kRadius},
-        job.radius_min_mm);
+  visit(
+      FieldInfo{"radius_min", "mm", "", "Smallest radius of a free tool. Default: 1 % of the face's diagonal", kRadius},
+      job.radius_min_mm);
   visit(FieldInfo{"axis_length", "mm", "", "Axis length of a family's tool", kLength}, job.tool.axis_length_mm);
   visit(FieldInfo{"tolerance", "mm", "", kToleranceHelp, kLength}, job.tolerance_mm);
   visit(FieldInfo{"map", "", "",
@@ -38,8 +39,8 @@ void visit_fields(Job& job, Visitor&& visit) {
                   "Approximate number of samples at which a limit is proved first; with --map of the whole part",
                   kPoints},
         job.points);
-  visit(FieldInfo{"gap", "", "", "Stop when what is proved is this near to what a position of the tool reaches, as a share",
-                  kGap},
+  visit(FieldInfo{"gap", "", "",
+                  "Stop when what is proved is this near to what a position of the tool reaches, as a share", kGap},
         job.gap);
   visit_other_faces(job, visit);
 }

@@ -111,9 +111,8 @@ class Nets {
 
   /// The best site of each net, by what is proved, counts.
   void keep_best(const std::vector<Site>& sites) {
-    const auto best = std::max_element(sites.begin(), sites.end(), [](const Site& a, const Site& b) {
-      return a.error.bound_mm < b.error.bound_mm;
-    });
+    const auto best = std::max_element(
+        sites.begin(), sites.end(), [](const Site& a, const Site& b) { return a.error.bound_mm < b.error.bound_mm; });
     if (best == sites.end() || best->error.bound_mm <= 0.0) return;
     leaders_.push_back(*best);
     best_mm_ = std::max(best_mm_, best->error.bound_mm);

@@ -13,7 +13,8 @@ constexpr double kBehind = 0.5;  ///< of the radius, by which a centre may be be
 /// Of the radius: so far from all faces it is certain on which side of its triangles a point is.
 constexpr double kCertain = 0.3;
 constexpr double kLeastDistance = 1e-3;  ///< of the radius, of a face from a centre that has a direction
-constexpr double kRounding = 1e-11;  ///< of the size: what a footpoint may be off, with what sums of its coordinates lose
+constexpr double kRounding =
+    1e-11;  ///< of the size: what a footpoint may be off, with what sums of its coordinates lose
 
 /// What a ball leaves at the site, or cuts at one point of a face: if its centre moves by d, at least value + slope.dot(d) - bend d.dot(d).
 struct Limit {
@@ -39,7 +40,8 @@ double least_of_largest(const std::vector<Limit>& limits, double reach) {
       if (length < 1e-9) continue;
       const double along = slope.dot(way) / length, off = std::sqrt(std::max(0.0, slope.squaredNorm() - along * along));
       const double m = gain / (reach * length);
-      const double best = std::abs(m) >= 1.0 ? (m > 0.0 ? 1.0 : 0.0) : (m * off / std::sqrt(1.0 - m * m) - along) / length;
+      const double best =
+          std::abs(m) >= 1.0 ? (m > 0.0 ? 1.0 : 0.0) : (m * off / std::sqrt(1.0 - m * m) - along) / length;
       const double share = std::clamp(best, 0.0, 1.0);
       mean += share * gain;
       slope += share * way;
@@ -63,7 +65,8 @@ class Search {
   Search(const Vec3& point, const Vec3& normal, const BallScene& scene, double radius_mm, const BallSearch& options)
       : point_(point), normal_(normal), scene_(scene), radius_(radius_mm), options_(options) {
     for (const Target* face : scene.faces)
-      rounding_ = std::max(rounding_, kRounding * (face->diagonal() + face->box().low.norm() + face->box().high.norm()));
+      rounding_ =
+          std::max(rounding_, kRounding * (face->diagonal() + face->box().low.norm() + face->box().high.norm()));
   }
 
   LeastError run() {
@@ -76,7 +79,8 @@ class Search {
     if (!enough()) {
       add({.middle = point_, .half = radius_ + result_.found_mm}, 0.0);
       while (!open_.empty() && !enough() && !close() && result_.cubes < options_.cubes) split();
-      if (!enough()) result_.bound_mm = std::min(result_.found_mm, open_.empty() ? result_.found_mm : open_.top().least_mm);
+      if (!enough())
+        result_.bound_mm = std::min(result_.found_mm, open_.empty() ? result_.found_mm : open_.top().least_mm);
     }
     result_.bound_mm = std::max(0.0, result_.bound_mm - rounding_);
     return result_;
