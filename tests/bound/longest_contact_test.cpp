@@ -5,7 +5,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "bound/analytic_targets.h"
+#include "analytic_targets.h"
 #include "flank/base/random.h"
 
 namespace flank::internal {

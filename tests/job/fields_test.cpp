@@ -100,10 +100,10 @@ Addresses members(const DesignJob& job) {
   return all;
 }
 Addresses members(const BoundJob& job) {
-  const auto& [part, tool, checked, ignored, tolerance, map, points, gap] = job;
+  const auto& [part, tool, radius, checked, ignored, tolerance, map, points, gap] = job;
   Addresses all;
   add_members(part, all), add_members(tool, all);
-  add(all, checked, ignored, tolerance, map, points, gap);
+  add(all, radius, checked, ignored, tolerance, map, points, gap);
   return all;
 }
 Addresses members(const CorrectJob& job) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "flank/error.h"
 #include "flank/example/example_write.h"
@@ -27,16 +28,18 @@ class RedesignOf : public TemporaryFolder {
     return redesign;
   }
 
-  /// A fit of the new face with the tool that the redesign found, on its own and from a start of its own.
-  [[nodiscard]] VerifyReport fitted_again(const Redesign& redesign, double tolerance_mm) const {
+  /// A fit of the new face with the tool that the redesign found, on its own and from a start of its own. `beside`: of other solids only
+  /// these are left out, and the tool keeps out of the rest while it plans.
+  [[nodiscard]] VerifyReport fitted_again(const Redesign& redesign, double tolerance_mm,
+                                          const std::optional<std::string>& beside = {}) const {
     FitJob job;
     job.part.file = (root_ / "new" / "redesigned.step").string();
     job.part.faces = redesign.new_ids.front();
     job.tool.spec = (root_ / "new" / "tool.json").string();
     job.tolerance_mm = tolerance_mm;
     job.strips = 1;
-    job.avoid = false;
-    job.obstacles.ignore_faces = "S1-S" + std::to_string(redesign.checked.solids);
+    job.avoid = beside.has_value();
+    job.obstacles.ignore_faces = beside.value_or("S1-S" + std::to_string(redesign.checked.solids));
     return run_fit(job).verify;
   }
 };
@@ -86,6 +89,11 @@ TEST_F(RedesignOf, TheImpellersBladeLosesNoneOfItsSolids) {
   const double size = redesign.result.diagonal_mm;
   expect_closed_loop(redesign, fitted_again(redesign, 5e-5 * size), size);
   EXPECT_LT(std::max(redesign.faces.front().highest_mm, -redesign.faces.front().lowest_mm), 0.01);
+  // The faces beside it, which are trimmed to it, do not hold the tool off.
+  const VerifyReport beside = fitted_again(redesign, 5e-5 * size, "S2-S11");
+  EXPECT_LT(beside.rms_mm, 1e-6 * size);
+  EXPECT_LT(beside.gouge_mm, 5e-5 * size);
+  EXPECT_GT(beside.coverage, 0.999);
 }
 
 TEST_F(RedesignOf, AMeshAndFacesThatAreJoinedAreRefused) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "flank/bound/bound_result.h"
+#include "flank/bound/free_bound.h"
 #include "flank/bound/part_map.h"
 #include "flank/progress.h"
 

@@ -100,7 +100,9 @@ Polished refine_exact_envelope(const Polished& polished, const std::vector<Surfa
   constexpr double kEnvelope = 3e-5;  // of the size, as kExactShare (polish.cpp) at the axis
   // A given tool was lifted out of all overcut: its mean error is that of the lift, and says less of what is possible.
   constexpr double kLifted = 1e-4;
-  constexpr double kEnvelopeGains = 0.9;   // of the mean error, at most, after a pass: else it is no envelope
+  // Of the mean error, at most, after a pass: else it is no envelope, or there is no more to gain. Beside walls it takes three or four.
+  constexpr double kEnvelopeGains = 0.9;
+  constexpr int kMostPasses = 5;
   constexpr double kRunOn = 0.02;          // of the motion's time, at both ends: no pose at an end leaves the border
   constexpr double kNearlyCovered = 0.98;  // by the samples: what misses more has something else to mend first
   const double size = polished.draft.targets.front()->diagonal();
@@ -110,15 +112,18 @@ Polished refine_exact_envelope(const Polished& polished, const std::vector<Surfa
   const std::vector<FacePoint> points = target_points(polished.draft, kMean.points_per_side, reach_of(options));
   Polished best = polished, trial = polished;
   trial.draft = run_on(polished.draft, kRunOn);
-  for (const bool last : {false, true}) {
-    if (stopping()) break;
-    const FitStage stage = envelope_stage(last, options, size);
+  for (int pass = 0; pass < kMostPasses && !stopping(); ++pass) {
+    const FitStage stage = envelope_stage(pass > 0, options, size);
+    const double last_rms = trial.estimate.rms_mm;
     trial = assess(run_swept(trial.draft, options.bounds, stage, points, trace), samples, options);
     const CoverageEstimate &now = trial.estimate, &before = best.estimate;
-    if (now.rms_mm > kEnvelopeGains * before.rms_mm) break;
+    if (now.rms_mm > kEnvelopeGains * std::min(last_rms, before.rms_mm)) break;
     const double deepest = std::max(before.overcut_mm, exact_overcut(trial.draft, options.tolerance_mm));
-    const bool keeps = now.at_tolerance >= before.at_tolerance && std::max(now.overcut_mm, now.gouge_mm) <= deepest &&
-                       (now.largest_c < 1.0 || now.largest_c <= before.largest_c);
+    // Other faces may be entered by as much as the terms that keep the tool out of them allow: they end where the face begins, to
+    // the digits of their border.
+    const double entered = std::max(before.gouge_mm, kToleranceBudget.others.fit_allowance * options.tolerance_mm);
+    const bool keeps = now.at_tolerance >= before.at_tolerance && now.overcut_mm <= deepest &&
+                       now.gouge_mm <= entered && (now.largest_c < 1.0 || now.largest_c <= before.largest_c);
     if (!keeps) continue;
     best = trial;
     best.exact = true;

@@ -21,9 +21,14 @@ template <class Visitor, Is<BoundJob> Job>
 void visit_fields(Job& job, Visitor&& visit) {
   using namespace accepted;
   visit_part(job.part, visit);
-  visit(FieldInfo{"tool", "", "", "A tool.json, or a family with all its parameters (cone:radius=2,angle=3)", kAny,
-                  Spelling::kFileOrText, "", true},
+  visit(FieldInfo{"tool", "", "",
+                  "free (any tool whose radii are large enough), a tool.json, or a family with all its parameters "
+                  "(cone:radius=2,angle=3)",
+                  kAny, Spelling::kFileOrText},
         job.tool.spec);
+  visit(
+      FieldInfo{"radius_min", "mm", "", "Smallest radius of a free tool. Default: 1 % of the face's diagonal", kRadius},
+      job.radius_min_mm);
   visit(FieldInfo{"axis_length", "mm", "", "Axis length of a family's tool", kLength}, job.tool.axis_length_mm);
   visit(FieldInfo{"tolerance", "mm", "", kToleranceHelp, kLength}, job.tolerance_mm);
   visit(FieldInfo{"map", "", "",
@@ -31,11 +36,11 @@ void visit_fields(Job& job, Visitor&& visit) {
                   kAny, Spelling::kFlag},
         job.map);
   visit(FieldInfo{"points", "", "",
-                  "Approximate number of samples at which the longest contact is proved; with --map on each face",
+                  "Approximate number of samples at which a limit is proved first; with --map of the whole part",
                   kPoints},
         job.points);
-  visit(FieldInfo{"gap", "", "", "Stop when the proved limit exceeds the longest contact found by at most this share",
-                  kGap},
+  visit(FieldInfo{"gap", "", "",
+                  "Stop when what is proved is this near to what a position of the tool reaches, as a share", kGap},
         job.gap);
   visit_other_faces(job, visit);
 }

@@ -68,4 +68,23 @@ class TorusTarget : public AnalyticTarget {
   double radius_, tube_;
 };
 
+/// A plane through a point, seen from any side.
+class PlaneTarget : public AnalyticTarget {
+ public:
+  PlaneTarget(const Vec3& point, const Vec3& normal) : point_(point), normal_(normal.normalized()) {
+    set_box(Vec3::Constant(10.0));
+  }
+  [[nodiscard]] Footpoint closest_within(const Vec3& p, double horizon_mm) const override {
+    Footpoint foot;
+    foot.distance = (p - point_).dot(normal_);
+    foot.point = p - foot.distance * normal_;
+    foot.normal = normal_;
+    foot.patch = std::abs(foot.distance) < horizon_mm ? 0 : -1;
+    return foot;
+  }
+
+ private:
+  Vec3 point_, normal_;
+};
+
 }  // namespace flank::internal
