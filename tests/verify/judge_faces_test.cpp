@@ -83,38 +83,5 @@ TEST_F(HalfAPlane, CellsThatAreReachableInPartAreCutWhereThatDecides) {
   EXPECT_GT(*judged(0.985).coverage_reachable_bound, 0.985);
 }
 
-TEST(JudgeFaces, LooksNoMoreThanFourTimesAsFinelyAsIsNeeded) {
-  // Passes of a small tip, five of them beside each other over a sample's cell: each look proves more.
-  Tool tool;
-  tool.radial = RadialFunction(ToolFamily::kCone, 8.0, Eigen::Vector2d(0.5, 0.1));
-  Path path;
-  for (int pass = 0; pass <= 50; ++pass) {
-    Strip& strip = path.strips.emplace_back();
-    for (int k = 0; k <= 44; ++k)
-      strip.poses.push_back({Vec3(-1.0 + 0.5 * k, 0.5, 0.2 * pass), Vec3(0.2, 1.0, 0.1 * (pass % 2)).normalized()});
-  }
-  const Face face = test::plane_face("F1", 20.0, 10.0);
-  const FaceSamples samples = sample_face(face, 1.0, true);
-  const FaceShape shape = &face;
-  const verify::JudgedFace judged{.face = "F1",
-                                  .target = true,
-                                  .size_mm = 22.0,
-                                  .samples = [&](std::size_t, bool, const auto& use) { use(samples); },
-                                  .shape = &shape};
-  JudgeOptions options;
-  options.tolerance_mm = 0.02;
-  const auto at_once = [&](std::size_t times) {
-    JudgeOptions more = options;
-    more.proof.cover_evaluations *= times;
-    return verify::judge_faces(tool, path, {judged}, more);
-  };
-  const std::size_t enough = 4 * options.proof.cover_evaluations * samples.points.size();
-  const double needed = *at_once(4).coverage_reachable_bound;
-  const VerifyReport report = verify::judge_faces(tool, path, {judged}, options, {.reachable = needed, .whole = 0.0});
-  EXPECT_GE(*report.coverage_reachable_bound, needed);
-  EXPECT_LE(report.faces[0].cover_cells, enough);
-  EXPECT_GT(at_once(16).faces[0].cover_cells, enough);
-}
-
 }  // namespace
 }  // namespace flank::internal

@@ -50,7 +50,7 @@ struct FaceCache {
 /// Looks at the coverage, in shares of ProofOptions::cover_evaluations. Where a share of the face is asked for, the first is coarse:
 /// if it is clear at once that this is covered, or that it is not, the last digits of the bound are not worth their price. The
 /// last ones cut the cells along the border of what is covered twice and three times more.
-constexpr std::array<double, 5> kCoverageEffort{1.0 / 12.0, 1.0, 4.0, 16.0, 64.0};
+constexpr std::array<double, 4> kCoverageEffort{1.0 / 12.0, 1.0, 16.0, 64.0};
 
 /// One judgement.
 class Judge {
