@@ -89,6 +89,17 @@ TEST(WheelRoles, BladesThatAreSunkIntoTheHubAreFound) {
   EXPECT_NEAR(blade->thickness_mm, 0.75, 0.1);
 }
 
+TEST(WheelRoles, TheHousingOfAnAssemblyIsNoPartOfTheWheel) {
+  FLANK_REAL_PART(file, "zoo/turbo3d_compressor_export.step");
+  const Part part = read_part(file);
+  const WheelRoles roles = recognise_wheel(part);
+  EXPECT_EQ(roles.count, 6);
+  // A lid, F1 to F12, and a housing, F13 to F193; what stands on the floor between the blades is the wheel's.
+  ASSERT_EQ(roles.debris.size(), 193U);
+  EXPECT_EQ(roles.debris.front(), "F1");
+  EXPECT_EQ(roles.debris.back(), "F193");
+}
+
 TEST(WheelRoles, RootFilletsHaveTheirRadius) {
   FLANK_REAL_PART(file, "wheels/impeller.step");
   const WheelRoles roles = recognise_wheel(read_part(file));

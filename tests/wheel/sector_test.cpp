@@ -52,6 +52,23 @@ TEST(WheelSector, ASplitterMakesTwoChannelsOfOne) {
   EXPECT_TRUE(sector.channels[1].turned);
 }
 
+TEST(WheelSector, AHubLooksTheWayThatItsNormalsSay) {
+  WheelRoles roles = three_mains();
+  roles.hub = {"F7", "F9"};
+  roles.axis.direction = Vec3::UnitZ();
+  std::vector<WheelFace> faces(3);
+  faces[0].id = "F7", faces[1].id = "F8", faces[2].id = "F9";
+  for (WheelFace& face : faces) face.solid = 0;
+  faces[0].samples = {{.point = Vec3::Zero(), .normal = -Vec3::UnitZ(), .area = 3.0}};
+  faces[1].samples = {{.point = Vec3::Zero(), .normal = Vec3::UnitZ(), .area = 100.0}};
+  faces[2].samples = {{.point = Vec3::Zero(), .normal = Vec3::UnitX(), .area = 1.0}};
+  EXPECT_NEAR(hub_looks_along(roles, faces), -0.75, 1e-12);
+  faces[0].solid = -1;
+  EXPECT_NEAR(hub_looks_along(roles, faces), 0.0, 1e-12);
+  faces[2].solid = -1;
+  EXPECT_EQ(hub_looks_along(roles, faces), 0.0);
+}
+
 TEST(WheelSector, OneBladeAloneHasNoChannel) {
   WheelRoles roles = three_mains();
   roles.blades.resize(1);

@@ -20,6 +20,7 @@ constexpr double kSpacingDeg = 0.5;  ///< by which equal blades may stand off th
 constexpr int kOutlinePoints = 24;
 constexpr double kDebrisShare =
     0.01;  ///< of the size: solids that are smaller and touch nothing are no part of the wheel
+constexpr double kOverTipsShare = 0.5;  ///< of the blades' height, by which the tips are nearer than the hub
 
 [[noreturn]] void refuse(const Part& part, const std::string& what) {
   throw InputError(fmt::format("{}: not recognised as a wheel: {}", part.file, what));
@@ -182,6 +183,32 @@ void add_debris(const std::vector<WheelFace>& faces, double size_mm, WheelRoles&
   }
 }
 
+/// Whether a place lies over the tips, seen from the hub.
+bool is_over_tips(const Vec3& p, const std::vector<const WheelFace*>& hub, const WheelRoles& roles) {
+  const Vec2 q(roles.axis.along(p), roles.axis.radius(p));
+  double tips = 1e300, height = 0.0;
+  for (const Vec2& tip : roles.outline) tips = std::min(tips, (tip - q).norm());
+  for (const WheelBlade& blade : roles.blades) height = std::max(height, blade.height_mm);
+  return std::abs(nearest(hub, p).height) > tips + kOverTipsShare * height;
+}
+
+/// Solids without a role that reach over the tips: the housing and the cover of an assembly are not there while its wheel is machined.
+void add_covers(const std::vector<WheelFace>& faces, const std::vector<const WheelFace*>& hub, WheelRoles& out) {
+  std::set<int> own, covers;
+  const std::set<std::string> rest(out.rest.begin(), out.rest.end());
+  for (const WheelFace& face : faces)
+    if (rest.count(face.id) == 0) own.insert(face.solid);
+  for (const WheelFace& face : faces) {
+    if (face.solid < 0 || own.count(face.solid) > 0 || covers.count(face.solid) > 0) continue;
+    const std::vector<Vec3>& all = face.mesh.vertices;
+    if (std::any_of(all.begin(), all.end(), [&](const Vec3& p) { return is_over_tips(p, hub, out); }))
+      covers.insert(face.solid);
+  }
+  const std::set<std::string> known(out.debris.begin(), out.debris.end());
+  for (const WheelFace& face : faces)
+    if (covers.count(face.solid) > 0 && known.count(face.id) == 0) out.debris.push_back(face.id);
+}
+
 void add_count(const Part& part, const std::vector<WheelFace>& faces, const WheelChoice& choice, WheelRoles& out) {
   std::vector<double> angles;
   for (const WheelBlade& blade : out.blades)
@@ -226,6 +253,7 @@ WheelRoles recognise_wheel(const Part& part, const WheelChoice& choice) {
   add_rest(faces, out);
   add_debris(faces, size, out);
   out.outline = outline_of(out, faces);
+  add_covers(faces, turned.hub, out);
   return out;
 }
 

@@ -49,8 +49,9 @@ struct WheelRoles {
   std::vector<std::string> shroud;  ///< faces over the tips; empty: an open wheel
   std::vector<WheelBlade> blades;   ///< main blades and splitters, by their angle
   std::vector<std::string> rest;    ///< not milled here: bore, back, chamfers
-  std::vector<std::string> debris;  ///< of `rest`: solids beside the wheel that are too small to be part of anything
-  std::vector<Vec2> outline;        ///< along the axis and radius, mm: over the tips of the main blades
+  std::vector<std::string>
+      debris;  ///< of `rest`: solids that are no part of the wheel, small ones beside it and covers over it
+  std::vector<Vec2> outline;  ///< along the axis and radius, mm: over the tips of the main blades
   [[nodiscard]] int mains() const;
   [[nodiscard]] int splitters() const { return static_cast<int>(blades.size()) - mains(); }
 };

@@ -64,7 +64,7 @@ std::string wheel_table(const WheelRoles& w) {
                         b.angle_deg, b.height_mm, b.thickness_mm, list(b.ahead) + " / " + list(b.behind), list(b.edges),
                         list(b.tips), fillets_text(b.fillets), b.buried.empty() ? "" : "; inside " + list(b.buried));
   text += fmt::format("\nwithout a role, not machined: {}\n", list(w.rest));
-  if (!w.debris.empty()) text += fmt::format("loose small faces, ignored: {}\n", list(w.debris));
+  if (!w.debris.empty()) text += fmt::format("other solids, ignored: {}\n", list(w.debris));
   return text;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <functional>
+#include <memory>
 #include <utility>
 
 #include "flank/error.h"
@@ -47,12 +48,13 @@ FloorChannel around(WheelWork& work) {
 Path passes_along(WheelWork& work, const std::string& kind, const Names& faces, bool only_rest) {
   const FloorChannel place = around(work);
   PointOptions options = work.point_options();
-  const FinishedPlaces finished(work.finish.strips, work.tool->radial, kFinishedShare * work.job.tolerance_mm);
+  const auto finished = std::make_shared<const FinishedPlaces>(work.finish.strips, work.tool->radial,
+                                                               kFinishedShare * work.job.tolerance_mm);
+  if (only_rest) options.is_finished = [finished](const Vec3& x) { return (*finished)(x); };
   Path out;
   for (const std::string& name : faces) {
     const std::optional<Face> face = work.targets.face(name);
     if (!face) throw InputError(name + ": passes along a face need its surface, and a mesh has none");
-    if (only_rest) options.is_finished = finished.within(work.targets.of({name}).front()->box());
     for (Strip& strip : face_passes(*face, place, work.tool->radial, options, kind, name))
       out.strips.push_back(std::move(strip));
   }

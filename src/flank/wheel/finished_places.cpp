@@ -8,6 +8,7 @@ namespace flank::internal {
 namespace {
 
 constexpr std::size_t kGroup = 12;  ///< poses
+constexpr double kRounding = 1.0 + 1e-9;
 constexpr double kBetweenShare =
     1.5;  ///< of sqrt(within * radius): poses that are farther apart have more between them
 
@@ -29,47 +30,33 @@ std::vector<Pose> dense(const std::vector<Pose>& poses, double length, double st
 
 }  // namespace
 
-FinishedPlaces::FinishedPlaces(const RadialFunction& radial, double within_mm)
-    : radial_(radial), within_mm_(within_mm), reach_mm_(radial.largest() + within_mm) {}
-
 FinishedPlaces::FinishedPlaces(const std::vector<Strip>& strips, const RadialFunction& radial, double within_mm)
-    : FinishedPlaces(radial, within_mm) {
-  const double step = kBetweenShare * std::sqrt(within_mm * radial.smallest());
+    : radial_(radial), within_mm_(within_mm), reach_mm_(radial.largest() + within_mm) {
+  const double length = radial.axis_length(), step = kBetweenShare * std::sqrt(within_mm * radial.smallest());
+  std::vector<std::vector<Vec3>> hulls;
   for (const Strip& strip : strips) {
-    const std::vector<Pose> poses = dense(strip.poses, radial.axis_length(), step);
-    for (std::size_t k = 0; k < poses.size(); k += kGroup)
-      add({poses.begin() + static_cast<std::ptrdiff_t>(k),
-           poses.begin() + static_cast<std::ptrdiff_t>(std::min(k + kGroup, poses.size()))});
+    const std::vector<Pose> poses = dense(strip.poses, length, step);
+    for (std::size_t k = 0; k < poses.size(); k += kGroup) {
+      groups_.emplace_back(poses.begin() + static_cast<std::ptrdiff_t>(k),
+                           poses.begin() + static_cast<std::ptrdiff_t>(std::min(k + kGroup, poses.size())));
+      std::vector<Vec3>& hull = hulls.emplace_back();
+      for (const Pose& pose : groups_.back()) hull.push_back(pose.tip), hull.push_back(pose.at(length));
+    }
   }
-}
-
-void FinishedPlaces::add(std::vector<Pose> poses) {
-  Group group;
-  Box3 box;
-  for (const Pose& pose : poses) box.add(pose.tip), box.add(pose.at(radial_.axis_length()));
-  group.center = box.center();
-  for (const Pose& pose : poses)
-    for (const double s : {0.0, radial_.axis_length()})
-      group.radius = std::max(group.radius, (pose.at(s) - group.center).norm());
-  group.radius += reach_mm_;
-  group.poses = std::move(poses);
-  groups_.push_back(std::move(group));
-}
-
-FinishedPlaces FinishedPlaces::within(const Box3& box) const {
-  FinishedPlaces out(radial_, within_mm_);
-  for (const Group& group : groups_)
-    if (box.squared_distance(group.center) <= group.radius * group.radius) out.groups_.push_back(group);
-  return out;
+  if (!hulls.empty()) tree_ = BoxTree(hulls);
 }
 
 bool FinishedPlaces::operator()(const Vec3& x) const {
-  for (const Group& group : groups_) {
-    if ((x - group.center).squaredNorm() > group.radius * group.radius) continue;
-    for (const Pose& pose : group.poses)
-      if (distance(x - pose.tip, pose.axis) <= within_mm_) return true;
-  }
-  return false;
+  if (groups_.empty()) return false;
+  bool found = false;
+  double squared_reach = kRounding * reach_mm_ * reach_mm_;
+  tree_.nearest(x, squared_reach, [&](int group) {
+    for (const Pose& pose : groups_[static_cast<std::size_t>(group)])
+      if (!found && distance(x - pose.tip, pose.axis) <= within_mm_) found = true;
+    // One is enough.
+    if (found) squared_reach = 0.0;
+  });
+  return found;
 }
 
 double FinishedPlaces::distance(const Vec3& d, const Vec3& axis) const {

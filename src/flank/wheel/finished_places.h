@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "flank/geom/bvh.h"
 #include "flank/path.h"
 #include "flank/radial_function.h"
 
@@ -12,25 +13,16 @@ namespace flank::internal {
 class FinishedPlaces {
  public:
   FinishedPlaces(const std::vector<Strip>& strips, const RadialFunction& radial, double within_mm);
-  /// Those of the poses that can say anything of a box.
-  [[nodiscard]] FinishedPlaces within(const Box3& box) const;
   /// Whether the flank of some pose comes so near to a place, or beyond it.
   [[nodiscard]] bool operator()(const Vec3& x) const;
 
  private:
-  /// Neighbouring poses, and a sphere that holds their flanks.
-  struct Group {
-    std::vector<Pose> poses;
-    Vec3 center = Vec3::Zero();
-    double radius = 0.0;
-  };
-  FinishedPlaces(const RadialFunction& radial, double within_mm);
-  void add(std::vector<Pose> poses);
   [[nodiscard]] double distance(const Vec3& d, const Vec3& axis) const;
 
   const RadialFunction& radial_;
   double within_mm_, reach_mm_;
-  std::vector<Group> groups_;
+  std::vector<std::vector<Pose>> groups_;  ///< neighbours
+  BoxTree tree_;                           ///< over their axes
 };
 
 }  // namespace flank::internal

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "flank/error.h"
 #include "flank/path_file.h"
@@ -61,7 +62,9 @@ Path floor_path(WheelWork& work) {
     for (const SectorChannel& channel : sector.channels) {
       const FloorChannel place = floor_channel(work, channel);
       PointOptions options = work.point_options();
-      options.is_finished = FinishedPlaces(side_strips(work, channel), work.tool->radial, 0.9 * work.job.tolerance_mm);
+      const auto finished = std::make_shared<const FinishedPlaces>(side_strips(work, channel), work.tool->radial,
+                                                                   0.9 * work.job.tolerance_mm);
+      options.is_finished = [finished](const Vec3& x) { return (*finished)(x); };
       for (Strip& strip :
            point_passes(place, work.tool->radial, options, face_list(work.roles.hub), face_list(channel.first),
                         face_list(work.equal() ? channel.second_path : channel.second)))

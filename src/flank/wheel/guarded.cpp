@@ -112,6 +112,8 @@ Path guarded(WheelWork& work, const Path& path, const RadialFunction& radial, do
     }
     add_strip(std::move(run), radial, options, out.strips);
   }
+  // There are millions of triangles, and the path's judge needs memory of its own.
+  work.fine.reset();
   for (std::size_t k = 0; k < out.strips.size(); ++k) out.strips[k].id = static_cast<int>(k) + 1;
   return out;
 }

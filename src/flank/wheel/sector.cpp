@@ -122,6 +122,15 @@ std::vector<Pose> turned(const std::vector<Pose>& poses, const WheelAxis& axis, 
   return out;
 }
 
+double hub_looks_along(const WheelRoles& roles, const std::vector<WheelFace>& faces) {
+  double sum = 0.0, area = 0.0;
+  for (const WheelFace& face : faces) {
+    if (face.solid < 0 || std::find(roles.hub.begin(), roles.hub.end(), face.id) == roles.hub.end()) continue;
+    for (const FaceSample& s : face.samples) sum += s.area * s.normal.dot(roles.axis.direction), area += s.area;
+  }
+  return area > 0.0 ? sum / area : 0.0;
+}
+
 double sectors_of_hub(const WheelRoles& roles, const std::vector<WheelFace>& faces) {
   std::vector<double> angles;
   for (const WheelFace& face : faces) {

@@ -29,6 +29,9 @@ struct WheelSector {
 /// The sectors that the hub goes round, its rim counted; `roles.count` where it closes.
 [[nodiscard]] double sectors_of_hub(const WheelRoles& roles, const std::vector<WheelFace>& faces);
 
+/// Mean of the hub's normals along the axis, -1 to 1: of faces of solids, as nobody knows the side of others; 0: nothing is known.
+[[nodiscard]] double hub_looks_along(const WheelRoles& roles, const std::vector<WheelFace>& faces);
+
 /// The first main blade with another one a pitch on, or itself where the wheel is one sector, and what stands between them. Throws InputError where no two main blades
 /// are there.
 [[nodiscard]] WheelSector make_sector(const WheelRoles& roles);

@@ -200,6 +200,20 @@ TEST(StockReplay, SeesWhatRisesAndFallsJustBeforeTheEndOfAStrip) {
   EXPECT_EQ(done.strips[0].pose, 50u) << "on the way to the last pose";
 }
 
+TEST(StockReplay, AStripOfFewPosesIsMeasuredAsOneOfMany) {
+  // Near to each other at its end, and not all along the way from the last pose but one.
+  const double radius = 4.0, way = 10.0;
+  const auto replayed = [&](int poses) {
+    DexelStock stock(box_of({-20.0, -8.0, 0.0}, {20.0, 8.0, 6.0}), {}, 0.1);
+    return replay(stock, cylinder(radius, 20.0), {{straight({0.0, 0.0, -7.0}, {way, 0.0, -7.0}, poses)}},
+                  {.circles = 3});
+  };
+  const StripReplay few = replayed(2).strips[0], many = replayed(101).strips[0];
+  EXPECT_LE(few.places, many.places);
+  EXPECT_NEAR(few.angle_rad, many.angle_rad, 1e-3);
+  EXPECT_NEAR(few.volume_mm3, many.volume_mm3, 1e-5 * many.volume_mm3);
+}
+
 TEST(StockReplay, AStripGoesOnWhereTheLastOneEnded) {
   const double radius = 4.0, step = 1.5, closed = std::acos(1.0 - step / radius);
   DexelStock stock(box_of({-20.0, -12.0, 0.0}, {20.0, 12.0, 10.0}), {}, 0.1);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -135,11 +136,24 @@ TEST(FinishedPlaces, AreThoseThatAPoseComesNearTo) {
   EXPECT_TRUE(finished(Vec3(10.0, 0.0, -1.99)));
   EXPECT_FALSE(finished(Vec3(10.0, 2.06, 5.0)));
   EXPECT_FALSE(finished(Vec3(30.0, 2.0, 5.0)));
-  Box3 box;
-  box.add(Vec3(9.0, 1.0, 4.0)), box.add(Vec3(11.0, 3.0, 6.0));
-  const FinishedPlaces near = finished.within(box);
-  EXPECT_TRUE(near(Vec3(10.0, 2.04, 5.0)));
-  EXPECT_FALSE(near(Vec3(10.0, 2.06, 5.0)));
+  // Strips all over, one of which is near: the same as each of them alone says.
+  std::vector<Strip> strips;
+  for (int n = 0; n < 12; ++n) {
+    Strip& one = strips.emplace_back();
+    for (int k = 0; k <= 30; ++k)
+      one.poses.push_back({Vec3(0.5 * k, 3.0 * n, 0.3 * n), Vec3(0.02 * k, 0.1 * n, 1.0).normalized()});
+  }
+  const FinishedPlaces all(strips, radial, 0.05);
+  int inside = 0;
+  for (int k = 0; k < 400; ++k) {
+    const Vec3 x(0.05 * k, 0.11 * ((7 * k) % 331), -2.0 + 0.05 * ((13 * k) % 337));
+    const bool by_one = std::any_of(strips.begin(), strips.end(),
+                                    [&](const Strip& one) { return FinishedPlaces({one}, radial, 0.05)(x); });
+    EXPECT_EQ(all(x), by_one) << k;
+    inside += by_one ? 1 : 0;
+  }
+  EXPECT_GT(inside, 40);
+  EXPECT_LT(inside, 360);
 }
 
 }  // namespace

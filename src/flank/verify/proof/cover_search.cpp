@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include "flank/base/assert.h"
 #include "flank/base/parallel.h"
@@ -26,6 +28,28 @@ struct Open {
 struct Lost {
   std::size_t sample = 0;
   double area = 0.0;
+};
+
+/// Parts whose nearest place of the path is looked for anew, up to a horizon each.
+class Asked {
+ public:
+  void add(Open& part, const Vec3& point, double horizon) {
+    parts_.push_back(&part), points_.push_back(point), horizons_.push_back(horizon);
+  }
+  /// Strip -1: nothing is as near as that.
+  void answer(const SweptVolume& volume) {
+    std::vector<SweptDistance> found(parts_.size());
+    volume.distances(points_, horizons_, found);
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      parts_[k]->near = found[k];
+      if (found[k].f > horizons_[k]) parts_[k]->near.strip = -1;
+    }
+  }
+
+ private:
+  std::vector<Open*> parts_;
+  std::vector<Vec3> points_;
+  std::vector<double> horizons_;
 };
 
 class CoverSearch {
@@ -78,9 +102,8 @@ class CoverSearch {
   template <class Body>
   std::vector<Open> in_blocks(std::size_t count, const Body& body) {
     std::vector<Block> blocks((count + kBlock - 1) / kBlock);
-    parallel_blocks(count, kBlock, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) body(i, blocks[begin / kBlock]);
-    });
+    parallel_blocks(count, kBlock,
+                    [&](std::size_t begin, std::size_t end) { body(begin, end, blocks[begin / kBlock]); });
     std::size_t left = 0;
     for (const Block& block : blocks) left += block.open.size();
     std::vector<Open> open;
@@ -96,17 +119,19 @@ class CoverSearch {
 
   /// The cells of the samples that the nearest ball of their sample does not settle.
   std::vector<Open> begin(std::span<const SweptDistance> distances) {
-    return in_blocks(distances.size(), [&](std::size_t i, Block& block) {
-      const SweptDistance& d = distances[i];
-      const double reach = samples_.reaches_mm.empty() ? samples_.spacing_mm : samples_.reaches_mm[i];
-      if (d.strip < 0 || d.f - reach > limits_.tolerance_mm) {
-        block.lost.push_back({i, samples_.areas[i]});
-        return;
+    return in_blocks(distances.size(), [&](std::size_t from, std::size_t to, Block& block) {
+      for (std::size_t i = from; i < to; ++i) {
+        const SweptDistance& d = distances[i];
+        const double reach = samples_.reaches_mm.empty() ? samples_.spacing_mm : samples_.reaches_mm[i];
+        if (d.strip < 0 || d.f - reach > limits_.tolerance_mm) {
+          block.lost.push_back({i, samples_.areas[i]});
+          continue;
+        }
+        Open open{shape_.cell_of(samples_.cells[i]), i, d};
+        if (near_all_of(open, block)) continue;
+        (void)shape_.look(open.cell);  // what splitting needs
+        block.open.push_back(open);
       }
-      Open open{shape_.cell_of(samples_.cells[i]), i, d};
-      if (near_all_of(open, block)) return;
-      (void)shape_.look(open.cell);  // what splitting needs
-      block.open.push_back(open);
     });
   }
 
@@ -142,25 +167,32 @@ class CoverSearch {
   }
 
   std::vector<Open> look(std::vector<Open> parts) {
-    return in_blocks(parts.size(), [&](std::size_t i, Block& block) {
-      Open& part = parts[i];
-      const Probe probe = shape_.look(part.cell);
-      if (probe.empty) return;
-      ++block.evaluations;
-      const double far = limits_.tolerance_mm + probe.reach;
-      part.near = volume_.distance_from(probe.point, part.near);
-      // Descent keeps to the pass of the cell that this is a part of, and the one beside it may be nearer by far: what does not even touch
-      // the middle settles no part of the cell, however small.
-      if (part.near.f > limits_.tolerance_mm) {
-        const SweptDistance best = volume_.distance(probe.point, far);
-        if (best.strip < 0 || best.f > far) {
-          block.lost.push_back({part.sample, shape_.area_bound(part.cell)});
-          return;
-        }
-        part.near = best;
-      }
-      if (!near_all_of(part, block)) block.open.push_back(part);
+    return in_blocks(parts.size(), [&](std::size_t from, std::size_t to, Block& block) {
+      look(std::span(parts).subspan(from, to - from), block);
     });
+  }
+
+  /// The same of a block. Descent keeps to the pass of the cell that a part is of, and the one beside it may be nearer by far: what does
+  /// not even touch the middle settles no part of the cell, however small. All of those are asked anew together, as neighbours share
+  /// most of their search.
+  void look(std::span<Open> parts, Block& block) const {
+    std::vector<Open*> there;
+    Asked asked;
+    for (Open& part : parts) {
+      const Probe probe = shape_.look(part.cell);
+      if (probe.empty) continue;
+      there.push_back(&part);
+      part.near = volume_.distance_from(probe.point, part.near);
+      if (part.near.f > limits_.tolerance_mm) asked.add(part, probe.point, limits_.tolerance_mm + probe.reach);
+    }
+    block.evaluations += there.size();
+    asked.answer(volume_);
+    for (Open* part : there) {
+      if (part->near.strip < 0)
+        block.lost.push_back({part->sample, shape_.area_bound(part->cell)});
+      else if (!near_all_of(*part, block))
+        block.open.push_back(*part);
+    }
   }
 
   /// Whether the cells' area is too small to matter. Mostly a few of them tell that it is not.

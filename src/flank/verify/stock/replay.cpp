@@ -66,6 +66,8 @@ class Replayer {
   /// From the pose before to pose k of a strip: measured on its way.
   void go_to(const std::vector<Pose>& poses, std::size_t k, bool passed, std::size_t index,
              std::vector<StripReplay>& out);
+  /// How far from a place on the way to pose k the next one that is measured may be.
+  [[nodiscard]] double apart(const std::vector<Pose>& poses, std::size_t k, const Pose& here) const;
   void measure(const Pose& pose, const PoseVelocity& velocity, std::size_t k, StripReplay& replay);
   /// Cuts what lies far enough behind a pose; all of it if there is none.
   void cut_behind(const Pose* pose, std::vector<StripReplay>& out);
@@ -123,24 +125,27 @@ void Replayer::run(const Strip& strip, std::size_t index, std::vector<StripRepla
   }
 }
 
+// Poses are as near as joining them straight asks for. Wherever a cut is, it is measured, too, and ever nearer towards the ends: on the last
+// tenth of a millimetre what a half engages rises and falls by degrees.
+double Replayer::apart(const std::vector<Pose>& poses, std::size_t k, const Pose& here) const {
+  const double to_end =
+      std::min(way_between(poses.front(), poses[k], length_), way_between(here, poses.back(), length_));
+  return std::clamp(kOfWayToEnd * to_end, kNearest * late_step_, step_);
+}
+
 void Replayer::go_to(const std::vector<Pose>& poses, std::size_t k, bool passed, std::size_t index,
                      std::vector<StripReplay>& out) {
   Pose from = poses[k == 0 ? 0 : k - 1];
   const Pose first = from;
   const double way = way_between(first, poses[k], length_);
-  // Poses are as near as joining them straight asks for. Wherever a cut is, it is measured, too, and ever nearer towards the ends: on
-  // the last tenth of a millimetre what a half engages rises and falls by degrees.
-  const double to_end =
-      std::min(way_between(poses.front(), poses[k], length_), way_between(poses[k], poses.back(), length_));
-  const double apart = std::clamp(kOfWayToEnd * to_end, kNearest * late_step_, step_);
   unmeasured_ += way;
-  const bool measured = measured_ && poses.size() > 1 && (!passed || unmeasured_ >= apart);
+  const bool measured = measured_ && poses.size() > 1 && (!passed || unmeasured_ >= apart(poses, k, poses[k]));
   if (measured) unmeasured_ = 0.0;
-  const int steps = measured ? std::max(1, static_cast<int>(std::ceil(way / apart))) : 1;
   const PoseVelocity before = velocity_at(poses, k == 0 ? 0 : k - 1, length_), after = velocity_at(poses, k, length_);
-  for (int n = 1; n <= steps; ++n) {
-    const double x = static_cast<double>(n) / steps;
-    const Pose to = n == steps ? poses[k] : between(first, poses[k], x);
+  for (double x = 0.0; x < 1.0;) {
+    const double steps = measured ? std::ceil((1.0 - x) * way / apart(poses, k, from)) : 1.0;
+    x = steps > 1.0 ? x + (1.0 - x) / steps : 1.0;
+    const Pose to = x < 1.0 ? between(first, poses[k], x) : poses[k];
     cut_behind(&to, out);
     waiting_.push_back({from, to, index, k, way_between(from, to, length_), passed});
     waiting_way_ += waiting_.back().way;
@@ -155,6 +160,7 @@ void Replayer::measure(const Pose& pose, const PoseVelocity& velocity, std::size
   const FrontScan::Seen largest = scan_.look(stock_, {&solid_, pose, velocity, &lately_, grain_, &empty_});
   PoseReplay& here = replay.poses[k];
   here.measured = true;
+  ++replay.places;
   if (largest.angle_rad > here.angle_rad) here.angle_rad = largest.angle_rad, here.s = largest.s;
   keep_larger(largest.arcs, here.arcs);
   if (largest.angle_rad > replay.angle_rad) replay.angle_rad = largest.angle_rad, replay.pose = k;

@@ -33,6 +33,7 @@ struct StripReplay {
   double volume_mm3 = 0.0;
   double angle_rad = 0.0;  ///< largest
   std::size_t pose = 0;    ///< where
+  std::size_t places = 0;  ///< at which it was measured
   std::vector<PoseReplay> poses;
 };
 

@@ -47,32 +47,37 @@ class LongLine {
 
 }  // namespace
 
-ChannelRows::ChannelRows(const FloorChannel& channel, const TipRoom& room)
-    : channel_(channel), room_(room), map_(channel.floor, channel.axis) {
-  const SideLine first(channel.first, channel.floor, map_);
-  SideLine second(channel.second, channel.floor, map_);
-  if (first.empty() || second.empty() || !(map_.length() > 0.0)) return;
-  // The second side is the next one in a right-handed turn.
+ChannelLines::ChannelLines(const FloorChannel& channel)
+    : map(channel.floor, channel.axis),
+      first(channel.first, channel.floor, map),
+      second(channel.second, channel.floor, map) {
+  if (!known()) return;
   const double middle = 0.5 * (std::max(first.from(), second.from()) + std::min(first.to(), second.to()));
   const double whole = 2.0 * std::numbers::pi;
   second.turn(-whole * std::floor((second.angle(middle) - first.angle(middle)) / whole));
-  place_rows(first, second);
+}
+
+ChannelRows::ChannelRows(const FloorChannel& channel, const ChannelLines& lines, const TipRoom& room)
+    : channel_(channel), lines_(lines), room_(room) {
+  if (!lines.known()) return;
+  place_rows();
   square_up();
   parallel_for(rows_.size(), [&](std::size_t k) { bound(rows_[k]); });
   even_out();
 }
 
-void ChannelRows::place_rows(const SideLine& first, const SideLine& second) {
-  const LongLine one(first, second), other(second, first);
+void ChannelRows::place_rows() {
+  const FloorMap& map = lines_.map;
+  const LongLine one(lines_.first, lines_.second), other(lines_.second, lines_.first);
   constexpr double kFineMm = 0.1;
   double along = 0.0, next = 0.0;
   std::optional<Vec3> last;
-  for (int k = 0; k * kFineMm <= map_.length(); ++k) {
+  for (int k = 0; k * kFineMm <= map.length(); ++k) {
     ChannelRow row;
     row.way = k * kFineMm;
     row.first = one.angle(row.way), row.second = other.angle(row.way);
-    row.width = (row.second - row.first) * map_.radius(row.way);
-    const Vec3 middle = map_.place(row.way, 0.5 * (row.first + row.second));
+    row.width = (row.second - row.first) * map.radius(row.way);
+    const Vec3 middle = map.place(row.way, 0.5 * (row.first + row.second));
     if (last) along += (middle - *last).norm();
     last = middle;
     if (along < next || !(row.width > 0.0)) continue;
@@ -89,7 +94,7 @@ void ChannelRows::square_up() {
     double most = 0.0;
     for (const double across : {0.0, 0.5, 1.0}) {
       const auto place = [&](const ChannelRow& row) {
-        return map_.place(row.way, row.first + across * (row.second - row.first));
+        return lines_.map.place(row.way, row.first + across * (row.second - row.first));
       };
       const Vec3 here = place(rows_[k]), along = place(after) - place(before);
       most = std::max(most, channel_.axis.around(here).cross(along.normalized()).norm());
@@ -99,7 +104,7 @@ void ChannelRows::square_up() {
 }
 
 std::optional<TipRoom::Rest> ChannelRows::at(const ChannelRow& row, double across) const {
-  return room_.rest(map_.place(row.way, row.first + across * (row.second - row.first)));
+  return room_.rest(lines_.map.place(row.way, row.first + across * (row.second - row.first)));
 }
 
 void ChannelRows::bound(ChannelRow& row) const {

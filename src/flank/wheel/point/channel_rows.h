@@ -21,9 +21,19 @@ struct ChannelRow {
   bool open = false;
 };
 
+/// The floor, and where the two sides of a channel stand on it: the same for every tool and at every height.
+struct ChannelLines {
+  explicit ChannelLines(const FloorChannel& channel);
+  /// Whether both sides stand on the floor.
+  [[nodiscard]] bool known() const { return !first.empty() && !second.empty() && map.length() > 0.0; }
+  FloorMap map;
+  SideLine first, second;  ///< the second one is the next in a right-handed turn
+};
+
 class ChannelRows {
  public:
-  ChannelRows(const FloorChannel& channel, const TipRoom& room);
+  /// All three must outlive it.
+  ChannelRows(const FloorChannel& channel, const ChannelLines& lines, const TipRoom& room);
   [[nodiscard]] const std::vector<ChannelRow>& rows() const { return rows_; }
   /// The tip's place at a share from `low` to `high` of a row; none beside the floor.
   [[nodiscard]] std::optional<TipRoom::Rest> rest(const ChannelRow& row, double share) const {
@@ -32,14 +42,14 @@ class ChannelRows {
 
  private:
   [[nodiscard]] std::optional<TipRoom::Rest> at(const ChannelRow& row, double across) const;
-  void place_rows(const SideLine& first, const SideLine& second);
+  void place_rows();
   void square_up();
   void bound(ChannelRow& row) const;
   void even_out();
 
   const FloorChannel& channel_;
+  const ChannelLines& lines_;
   const TipRoom& room_;
-  FloorMap map_;
   std::vector<ChannelRow> rows_;
 };
 

@@ -163,7 +163,8 @@ std::vector<PoseRow> floor_rows(const ChannelRows& rows, const TipRoom& room, co
 std::vector<Strip> point_passes(const FloorChannel& channel, const RadialFunction& radial, const PointOptions& options,
                                 const std::string& floor, const std::string& first, const std::string& second) {
   const TipRoom room(channel, radial, options);
-  const ChannelRows rows(channel, room);
+  const ChannelLines lines(channel);
+  const ChannelRows rows(channel, lines, room);
   if (rows.rows().size() < 3) return {};
   const AxisField field = field_of(rows, room);
   std::vector<Strip> out;
@@ -185,12 +186,13 @@ std::vector<std::vector<Strip>> layer_passes(const FloorChannel& channel, const 
                                              const std::string& floor) {
   std::vector<std::vector<Strip>> out;
   std::optional<AxisField> below;
+  const ChannelLines lines(channel);
   for (const double height : heights_mm) {
     PointOptions here = options;
     here.height_mm = height;
     const TipRoom room(channel, radial, here);
     // Rows and columns of the field are the same at every height: they follow from the sides' lines on the floor.
-    const ChannelRows rows(channel, room);
+    const ChannelRows rows(channel, lines, room);
     out.emplace_back();
     if (rows.rows().size() < 3) continue;
     AxisField field = field_of(rows, room, below ? &*below : nullptr);
@@ -202,7 +204,8 @@ std::vector<std::vector<Strip>> layer_passes(const FloorChannel& channel, const 
 
 double channel_width(const FloorChannel& channel, const RadialFunction& radial) {
   const TipRoom room(channel, radial, {});
-  const ChannelRows rows(channel, room);
+  const ChannelLines lines(channel);
+  const ChannelRows rows(channel, lines, room);
   std::vector<double> widths;
   for (const ChannelRow& row : rows.rows()) widths.push_back(row.width);
   if (widths.size() < 3) return 0.0;
