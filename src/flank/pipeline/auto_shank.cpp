@@ -1,7 +1,5 @@
 #include "flank/pipeline/auto_shank.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -22,10 +20,8 @@ bool fails_by(const Acceptance& acceptance, Figure figure) {
 
 void note_chosen_shank(const Tool& tool, const ObstacleRequest& chosen, std::vector<std::string>& notes) {
   if (chosen.shank_length_mm)
-    notes.push_back(
-        fmt::format("the shank was chosen: diameter {:.4g} mm, {:g} mm above the flank, where it is out of the part; "
-                    "`shank_length_mm` gives another one, `shank` none leaves it out",
-                    tool.shank.empty() ? 0.0 : 2.0 * tool.shank.back().y(), *chosen.shank_length_mm));
+    notes.push_back(chosen_shank_text(tool, chosen) +
+                    "; `shank_length_mm` gives another one, `shank` none leaves it out");
 }
 
 Tool with_shank(const ObstacleRequest& obstacles, Tool flank) {

@@ -11,6 +11,7 @@
 #include "flank/base/parallel.h"
 #include "flank/base/stopping.h"
 #include "flank/envelope/path_regularity.h"
+#include "flank/geom/mesh_topology.h"
 #include "flank/job/command_line.h"
 #include "flank/results/view_gaps.h"
 #include "flank/setup/targets.h"
@@ -158,8 +159,8 @@ std::vector<ProfilePoint> profile_of(const RadialFunction& radial) {
 
 }  // namespace
 
-View make_view(const PlanJob& job, const Setup& setup, const Tool& tool, const Path& path,
-               const VerifyReport& verdict) {
+View make_view(const PlanJob& job, const Setup& setup, const Tool& tool, const Path& path, const VerifyReport& verdict,
+               const BentError& bent) {
   View view;
   // A page is passed on: where files lie on somebody's disk is not its readers' business.
   const PlanJob shown = without_folders(job);
@@ -197,6 +198,8 @@ View make_view(const PlanJob& job, const Setup& setup, const Tool& tool, const P
   }
   add_obstacles(setup, struck, view);
   judge_faces(view, path, entered);
+  for (ViewFace& body : view.bodies)
+    if (bent && body.target && !body.f_mm.empty()) body.bent_mm = bent(body.mesh.vertices, vertex_normals(body.mesh));
   return view;
 }
 

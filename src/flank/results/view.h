@@ -2,6 +2,7 @@
 /// For looking at; the figures that count are those of verify.json.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -58,9 +59,12 @@ inline constexpr double kEnteredShare = 0.5;
 inline constexpr std::size_t kMostPosesShown = 1500;
 inline constexpr std::size_t kMostPlaces = 240;
 
-/// Triangulates the part, asks the judge at the vertices, and thins the path out.
+/// The signed error at places with these normals, mm, of a tool that bends.
+using BentError = std::function<std::vector<double>(const std::vector<Vec3>& at, const std::vector<Vec3>& normals)>;
+
+/// Triangulates the part, asks the judge at the vertices, and thins the path out. `bent`: asked at those of the targets, if it is there.
 [[nodiscard]] View make_view(const PlanJob& job, const Setup& setup, const Tool& tool, const Path& path,
-                             const VerifyReport& verdict);
+                             const VerifyReport& verdict, const BentError& bent = nullptr);
 
 }  // namespace flank::internal
 

@@ -1,5 +1,7 @@
 #include "flank/setup/shank_reach.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -51,6 +53,11 @@ std::optional<double> standard_shank(double flank_diameter_mm) {
     if (diameter <= flank_diameter_mm * (1.0 + 1e-9) && diameter >= (1.0 - kThinner) * flank_diameter_mm)
       found = diameter;
   return found;
+}
+
+std::string chosen_shank_text(const Tool& tool, const ObstacleRequest& chosen) {
+  return fmt::format("the shank was chosen: diameter {:.4g} mm, {:g} mm above the flank, where it is out of the part",
+                     tool.shank.empty() ? 0.0 : 2.0 * tool.shank.back().y(), chosen.shank_length_mm.value_or(0.0));
 }
 
 void choose_shank(const Tool& tool, const Path& path, const Box3& part, ObstacleRequest& request) {

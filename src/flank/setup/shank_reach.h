@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "flank/job.h"
@@ -19,6 +20,9 @@ namespace flank::internal {
 
 /// The largest of them that is below a flank's upper end by at most a tenth; none: the shank is as thick as the flank ends.
 [[nodiscard]] std::optional<double> standard_shank(double flank_diameter_mm);
+
+/// What was chosen for a tool, in words.
+[[nodiscard]] std::string chosen_shank_text(const Tool& tool, const ObstacleRequest& chosen);
 
 /// Radius (where it is not given) and length of a shank that reaches out of the part along the path, to whole millimetres and no shorter
 /// than the request's.

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <type_traits>
 
 #include "flank/base/tolerance_budget.h"
 #include "flank/error.h"
-#include "flank/geom/mesh_topology.h"
 #include "flank/io/face_names.h"
 #include "flank/io/path/blank_json.h"
 #include "flank/io/path/engagement_json.h"
@@ -124,19 +124,6 @@ void judge_steps(const std::string& folder, const std::optional<WheelPlan>& plan
   if (roughing) outcome.notes.push_back(roughing_text(*roughing));
 }
 
-/// `bending`: of the tool, where it is asked for and a load is known.
-View view_of(const Verification& outcome, const Setup& setup, const Tool& tool, const Path& path,
-             const BendingTool* bending) {
-  View view = make_view(outcome.job, setup, tool, path, outcome.report);
-  if (!bending) return view;
-  for (ViewFace& body : view.bodies) {
-    if (!body.target || body.f_mm.empty()) continue;
-    for (const BentPlace& place : bending->at(body.mesh.vertices, vertex_normals(body.mesh)))
-      body.bent_mm.push_back(place.f + place.added);
-  }
-  return view;
-}
-
 /// `named`: the part, as job.json has it.
 template <class Job>
 Verification judge_path(const VerifyJob& request, const Job& job, const std::string& named, ResultFolder& folder) {
@@ -154,9 +141,7 @@ Verification judge_path(const VerifyJob& request, const Job& job, const std::str
     ObstacleRequest chosen = request.obstacles;
     choose_shank(tool, path, setup.part.box, chosen);
     equip_tool(chosen, tool);
-    outcome.notes.push_back(
-        fmt::format("the shank was chosen: diameter {:.4g} mm, {:g} mm above the flank, where it is out of the part",
-                    2.0 * tool.shank.back().y(), *chosen.shank_length_mm));
+    outcome.notes.push_back(chosen_shank_text(tool, chosen));
   }
   check_origin(request, folder, setup.part, outcome);
   require_known_faces(path, setup.part, file("path.json"));
@@ -164,24 +149,21 @@ Verification judge_path(const VerifyJob& request, const Job& job, const std::str
   const ClearanceScene scene = make_clearance_scene(setup, job.obstacles, has_body(tool), outcome.notes);
   measure_bodies(scene, tool, path, outcome.report);
   const FolderStock stock = replay_stock(job, setup, tool, path, file("blank.json"), outcome);
-  std::optional<SweptVolume> volume;
   std::optional<BendingTool> bending;
   if (request.bending.on) {
-    volume.emplace(judged_tool(setup, tool), path);
-    bending.emplace(request.bending, stock.arcs, setup, tool, path, *volume);
-    const double spacing = coarse_spacing(setup, kMostBent);
-    outcome.report.bending = bending->report(judge_samples(setup, spacing, spacing));
-    for (std::string& note : bending->notes(outcome.report.bending)) outcome.notes.push_back(std::move(note));
+    bending.emplace(request.bending, stock.arcs, setup, tool, judged_tool(setup, tool), path);
+    outcome.report.bending = bending->report(setup, coarse_spacing(setup, kMostBent));
+    bending->add_notes(outcome.report.bending, outcome.notes);
   }
   outcome.acceptance = accept(tool, outcome.report, job.judge);
   accept_program(job, outcome);
-  const BendRadii bends =
-      least_bend_radii(path, tool.radial.axis_length(), kToleranceBudget.chord * setup.tolerance_mm);
-  accept_bends(job, bends, outcome.acceptance);
+  const double chord_mm = kToleranceBudget.chord * setup.tolerance_mm;
+  accept_bends(job, least_bend_radii(path, tool.radial.axis_length(), chord_mm), outcome.acceptance);
   judge_steps(request.folder, plan, setup, path, outcome);
   std::map<std::string, std::string> files{
       {"verify.json", verify_to_json(outcome.report, outcome.acceptance)},
-      {"view.json", view_to_json(view_of(outcome, setup, tool, path, outcome.report.bending ? &*bending : nullptr))}};
+      {"view.json",
+       view_to_json(make_view(outcome.job, setup, tool, path, outcome.report, bending ? bending->errors() : nullptr))}};
   if (!stock.engagement.empty()) files["engagement.json"] = engagement_to_json(stock.engagement, stock.arcs);
   write_verdict(folder, {absolute(request.part ? *request.part : named), setup.part.sha256}, files, outcome);
   return outcome;

@@ -38,8 +38,11 @@ double bent_along(const Tool& tool, const CuttingRequest& request, const std::ve
 }
 
 BendingTool::BendingTool(const BendingRequest& asked, const PathArcs& known, const Setup& setup, const Tool& tool,
-                         const Path& path, const SweptVolume& volume)
-    : tool_(tool), path_(path), volume_(volume), arcs_(engaged_arcs(known, asked.finish_stock_mm, setup, tool, path)) {
+                         const Tool& judged, const Path& path)
+    : tool_(tool),
+      path_(path),
+      volume_(judged, path),
+      arcs_(engaged_arcs(known, asked.finish_stock_mm, setup, tool, path)) {
   if (!knows_load()) return;
   cutting_ = usual_cutting(find_material(*asked.material), *asked.flutes, asked.helix_deg * std::numbers::pi / 180.0,
                            largest_diameter(tool));
@@ -66,10 +69,19 @@ std::vector<BentPlace> BendingTool::at(const std::vector<Vec3>& points, const st
   return places;
 }
 
-std::optional<BendingReport> BendingTool::report(const std::vector<FaceSamples>& faces) const {
+std::function<std::vector<double>(const std::vector<Vec3>&, const std::vector<Vec3>&)> BendingTool::errors() const {
+  if (!knows_load()) return nullptr;
+  return [this](const std::vector<Vec3>& points, const std::vector<Vec3>& normals) {
+    std::vector<double> errors;
+    for (const BentPlace& place : at(points, normals)) errors.push_back(place.f + place.added);
+    return errors;
+  };
+}
+
+std::optional<BendingReport> BendingTool::report(const Setup& setup, double spacing_mm) const {
   if (!knows_load()) return std::nullopt;
   BendingReport out;
-  for (const FaceSamples& face : faces) {
+  for (const FaceSamples& face : judge_samples(setup, spacing_mm, spacing_mm)) {
     if (!face.target || face.normals.size() != face.points.size()) continue;
     const std::vector<BentPlace> places = at(face.points, face.normals);
     for (std::size_t k = 0; k < places.size(); ++k) {
@@ -87,11 +99,13 @@ std::optional<BendingReport> BendingTool::report(const std::vector<FaceSamples>&
   return out;
 }
 
-std::vector<std::string> BendingTool::notes(const std::optional<BendingReport>& report) const {
-  if (!knows_load()) return {"bending: no load is known; give what roughing has left by `finish_stock`"};
-  std::vector<std::string> notes = load_notes(loads_, path_, cutting_);
+void BendingTool::add_notes(const std::optional<BendingReport>& report, std::vector<std::string>& notes) const {
+  if (!knows_load()) {
+    notes.push_back("bending: no load is known; give what roughing has left by `finish_stock`");
+    return;
+  }
+  for (std::string& note : load_notes(loads_, path_, cutting_)) notes.push_back(std::move(note));
   notes.push_back(report ? bending_text(*report) : "bending: not calculated, because no load is known on these faces");
-  return notes;
 }
 
 std::string bending_text(const BendingReport& b) {

@@ -1,6 +1,7 @@
 /// What a tool leaves when it bends: how far it gives way at the instant at which an edge makes the surface.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,34 +36,36 @@ struct BentPlace {
   bool loaded = false;  ///< a load is known there
 };
 
+/// Places that a report looks at, of all targets together, about.
+inline constexpr double kMostBent = 4000.0;
+
 /// A tool that bends on a path, at the feeds that a program takes with this material.
 class BendingTool {
  public:
-  /// `known`: arcs of the replay of a stock. `volume`: of the path, with the tool as the judge has it. Tool, path and volume must outlive this.
+  /// `known`: arcs of the replay of a stock. `judged`: the tool as the judge has it. Tool and path must outlive this.
   BendingTool(const BendingRequest& asked, const PathArcs& known, const Setup& setup, const Tool& tool,
-              const Path& path, const SweptVolume& volume);
+              const Tool& judged, const Path& path);
 
   [[nodiscard]] bool knows_load() const { return !arcs_.heights.empty(); }
-  /// Of places with their normals, towards the tool.
-  [[nodiscard]] std::vector<BentPlace> at(const std::vector<Vec3>& points, const std::vector<Vec3>& normals) const;
+  /// The signed error, mm, at places with their normals, towards the tool; none where no load is known. Does not outlive this.
+  [[nodiscard]] std::function<std::vector<double>(const std::vector<Vec3>& points, const std::vector<Vec3>& normals)>
+  errors() const;
   /// Of samples of the targets; none where no load is known.
-  [[nodiscard]] std::optional<BendingReport> report(const std::vector<FaceSamples>& faces) const;
+  [[nodiscard]] std::optional<BendingReport> report(const Setup& setup, double spacing_mm) const;
   /// Of the loads, and of what the report says.
-  [[nodiscard]] std::vector<std::string> notes(const std::optional<BendingReport>& report) const;
+  void add_notes(const std::optional<BendingReport>& report, std::vector<std::string>& notes) const;
 
  private:
+  [[nodiscard]] std::vector<BentPlace> at(const std::vector<Vec3>& points, const std::vector<Vec3>& normals) const;
   [[nodiscard]] BentPlace bent(const SweptDistance& at, const Vec3& normal) const;
 
   const Tool& tool_;
   const Path& path_;
-  const SweptVolume& volume_;
+  SweptVolume volume_;
   PathArcs arcs_;
   CuttingRequest cutting_;
   PathLoads loads_;
 };
-
-/// Places that are looked at for the report, of all targets together, about.
-inline constexpr double kMostBent = 4000.0;
 
 [[nodiscard]] std::string bending_text(const BendingReport& bending);
 
