@@ -57,7 +57,8 @@ TEST_F(Cli, SignalsStopAndKeepTheBestSoFar) {
   if (kSanitized) GTEST_SKIP() << "whole searches take minutes";
   const std::string blade = make_blade();
   for (const char* name : {"TERM", "HUP", "INT"}) {
-    const std::string out = path(name), err = path("err.txt");
+    // A file of its own: what an earlier one has said must not be taken for this one's best so far.
+    const std::string out = path(name), err = out + ".txt";
     // Once there is a best so far, however busy the machine is.
     const int code = shell("\"$FLANK\" fit '" + blade + "' --face F1 --tolerance 1e-4 --progress json -o '" + out +
                            "' >/dev/null 2>'" + err + "' & p=$!; n=0; until grep -q '\"best\":{' '" + err +
