@@ -12,14 +12,13 @@
 #include "flank/error.h"
 #include "flank/io/text/json_dump.h"
 #include "flank/job/bound_fields.h"
+#include "flank/setup/radius_default.h"
 #include "flank/tool_request/tool_spec.h"
 
 namespace flank::internal {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kRadiusShare = 0.01;  ///< of a target's diagonal: as of a fit
 
 Json triple(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -63,7 +62,7 @@ FreeBound run_free_bound(const BoundJob& request, const Progress& progress) {
   const double share = 1.0 / static_cast<double>(setup.groups.size());
   for (std::size_t k = 0; k < setup.groups.size() && !progress.stop(); ++k) {
     const Target& target = *setup.groups[k].target;
-    const double radius = request.radius_min_mm.value_or(kRadiusShare * target.diagonal());
+    const double radius = request.radius_min_mm.value_or(kSmallestRadiusShare * target.diagonal());
     const BallBoundOptions options = {.radius_mm = radius,
                                       .tolerance_mm = setup.setup.tolerance_mm,
                                       .spacing_mm = std::sqrt(target.area() / request.points),

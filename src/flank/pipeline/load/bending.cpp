@@ -15,6 +15,18 @@
 
 namespace flank::internal {
 
+namespace {
+
+std::string bending_text(const BendingReport& b) {
+  return fmt::format(
+      "bending adds {:.2f} to {:.2f} um of excess material, most at ({:.2f}, {:.2f}, {:.2f}); by samples the gouge is "
+      "{:.4f} mm, without bending {:.4f}, the excess material {:.4f} mm, without bending {:.4f}",
+      1e3 * b.least_mm, 1e3 * b.most_mm, b.most_point.x(), b.most_point.y(), b.most_point.z(), b.bent_overcut_mm,
+      b.overcut_mm, b.bent_undercut_mm, b.undercut_mm);
+}
+
+}  // namespace
+
 double bent_along(const Tool& tool, const CuttingRequest& request, const std::vector<double>& heights,
                   const std::vector<EngagedArc>& arcs, const std::vector<Pose>& poses, const MadeBy& place,
                   double feed) {
@@ -49,7 +61,7 @@ BendingTool::BendingTool(const BendingRequest& asked, const PathArcs& known, con
   loads_ = path_loads(tool, path, arcs_, cutting_);
 }
 
-BentPlace BendingTool::bent(const SweptDistance& at, const Vec3& normal) const {
+BendingTool::BentPlace BendingTool::bent(const SweptDistance& at, const Vec3& normal) const {
   BentPlace out{.f = at.f};
   if (at.strip < 0 || !(at.f < 1e100)) return out;
   const auto strip = static_cast<std::size_t>(at.strip);
@@ -62,7 +74,8 @@ BentPlace BendingTool::bent(const SweptDistance& at, const Vec3& normal) const {
   return out;
 }
 
-std::vector<BentPlace> BendingTool::at(const std::vector<Vec3>& points, const std::vector<Vec3>& normals) const {
+std::vector<BendingTool::BentPlace> BendingTool::at(const std::vector<Vec3>& points,
+                                                    const std::vector<Vec3>& normals) const {
   FLANK_ASSERT(knows_load() && points.size() == normals.size());
   std::vector<BentPlace> places(points.size());
   parallel_for(points.size(), [&](std::size_t k) { places[k] = bent(volume_.distance(points[k]), normals[k]); });
@@ -106,14 +119,6 @@ void BendingTool::add_notes(const std::optional<BendingReport>& report, std::vec
   }
   for (std::string& note : load_notes(loads_, path_, cutting_)) notes.push_back(std::move(note));
   notes.push_back(report ? bending_text(*report) : "bending: not calculated, because no load is known on these faces");
-}
-
-std::string bending_text(const BendingReport& b) {
-  return fmt::format(
-      "bending adds {:.2f} to {:.2f} um of excess material, most at ({:.2f}, {:.2f}, {:.2f}); by samples the gouge is "
-      "{:.4f} mm, without bending {:.4f}, the excess material {:.4f} mm, without bending {:.4f}",
-      1e3 * b.least_mm, 1e3 * b.most_mm, b.most_point.x(), b.most_point.y(), b.most_point.z(), b.bent_overcut_mm,
-      b.overcut_mm, b.bent_undercut_mm, b.undercut_mm);
 }
 
 void require_bending(const BendingRequest& request) {

@@ -29,13 +29,6 @@ struct MadeBy {
 /// Throws UsageError for what is missing.
 void require_bending(const BendingRequest& request);
 
-/// A place of a target.
-struct BentPlace {
-  double f = 0.0;       ///< of a stiff tool, mm; infinite where nothing comes near
-  double added = 0.0;   ///< by bending, mm
-  bool loaded = false;  ///< a load is known there
-};
-
 /// Places that a report looks at, of all targets together, about.
 inline constexpr double kMostBent = 4000.0;
 
@@ -56,6 +49,13 @@ class BendingTool {
   void add_notes(const std::optional<BendingReport>& report, std::vector<std::string>& notes) const;
 
  private:
+  /// Of a target.
+  struct BentPlace {
+    double f = 0.0;       ///< of a stiff tool, mm; infinite where nothing comes near
+    double added = 0.0;   ///< by bending, mm
+    bool loaded = false;  ///< a load is known there
+  };
+
   [[nodiscard]] std::vector<BentPlace> at(const std::vector<Vec3>& points, const std::vector<Vec3>& normals) const;
   [[nodiscard]] BentPlace bent(const SweptDistance& at, const Vec3& normal) const;
 
@@ -66,7 +66,5 @@ class BendingTool {
   CuttingRequest cutting_;
   PathLoads loads_;
 };
-
-[[nodiscard]] std::string bending_text(const BendingReport& bending);
 
 }  // namespace flank::internal

@@ -6,6 +6,7 @@
 #include "flank/base/parallel.h"
 #include "flank/base/tolerance_budget.h"
 #include "flank/setup/make_obstacles.h"
+#include "flank/setup/radius_default.h"
 
 namespace flank::internal {
 namespace {
@@ -43,7 +44,7 @@ double voter_height(const Obstacles& obstacles, const Target& target, double lar
 RadiusBounds radius_bounds(const RadiusRequest& radius, const ObstacleRequest& obstacles, double diagonal) {
   RadiusBounds bounds;
   bounds.largest = radius.max_mm.value_or(std::max(0.15 * diagonal, 2.0 * radius.min_mm.value_or(0.0)));
-  bounds.smallest = radius.min_mm.value_or(std::min(0.01 * diagonal, 0.5 * bounds.largest));
+  bounds.smallest = radius.min_mm.value_or(std::min(kSmallestRadiusShare * diagonal, 0.5 * bounds.largest));
   bounds.steepest = radius.slope_max;
   bounds.slenderest = radius.slenderness_max;
   bounds.neck = radius.profile == "any" ? 1.0 : radius.neck;
