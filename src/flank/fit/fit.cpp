@@ -46,8 +46,8 @@ void orbit_fit(Candidate& candidate, FitDraft draft, const FlankFitOptions& opti
   const Target* target = draft.targets.front();
   const ObstacleField* obstacles = obstacles_of(draft, target);
   if (draft.free_tool) {
-    const double r = draft.tool.at(0.5 * draft.tool.axis_length()).r;
-    draft.tool = RadialFunction::spline(draft.tool.axis_length(), Eigen::VectorXd::Constant(kCoefficients, r));
+    const RadialJet tip = draft.tool.at(0.0);
+    draft.tool = start_tool(draft.tool.axis_length(), tip.r, tip.d1, kCoefficients);
     draft.free_parameters.resize(kCoefficients);
     std::iota(draft.free_parameters.begin(), draft.free_parameters.end(), 0);
   }
@@ -94,9 +94,9 @@ void rough_fit(Candidate& candidate, const FitDraft& draft, const Target& target
 /// Fits and ranks one candidate. Left without motions if no line of its start is free, or if it loses its values.
 void quick_fit(Candidate& candidate, const Target& target, const ToolModel& tool, const FlankFitOptions& options,
                const std::vector<SurfaceSample>& samples) {
-  const std::vector<FitTask> tasks = make_tasks(target, *candidate.chart, candidate.start, tool, options);
-  if (tasks.empty()) return;
-  const FitDraft draft = start_draft(tasks, tool, candidate.start.radius_mm);
+  const LaidStart laid = lay_start(target, *candidate.chart, candidate.start, tool, options);
+  if (laid.tasks.empty()) return;
+  const FitDraft draft = start_draft(laid.tasks, tool, laid.start.radius_mm, std::sin(laid.start.lean_rad));
   if (candidate.section != nullptr)
     orbit_fit(candidate, draft, options);
   else

@@ -150,12 +150,21 @@ FitDraft make_draft(const std::vector<FitTask>& tasks, const ToolModel& tool, co
   return draft;
 }
 
-FitDraft start_draft(const std::vector<FitTask>& tasks, const ToolModel& tool, double radius) {
+RadialFunction start_tool(double axis_length, double radius, double slope, int coefficients) {
+  if (slope == 0.0) return RadialFunction::spline(axis_length, Eigen::VectorXd::Constant(coefficients, radius));
+  std::vector<Vec2> samples;
+  for (int k = 0; k <= 4 * coefficients; ++k) {
+    const double s = axis_length * k / (4.0 * coefficients);
+    samples.emplace_back(s, radius + slope * s);
+  }
+  return RadialFunction::spline_through(axis_length, samples, coefficients);
+}
+
+FitDraft start_draft(const std::vector<FitTask>& tasks, const ToolModel& tool, double radius, double slope) {
   FitDraft draft = without_tool(tasks, tool);
   const double length = tasks.front().motion.axis_length;
   draft.free_parameters = tool.free_parameters;
-  draft.tool = tool.free() ? RadialFunction::spline(length, Eigen::VectorXd::Constant(kFirstCoefficients, radius))
-                           : tool.make(length, radius);
+  draft.tool = tool.free() ? start_tool(length, radius, slope, kFirstCoefficients) : tool.make(length, radius);
   return draft;
 }
 

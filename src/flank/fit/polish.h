@@ -15,9 +15,13 @@ namespace flank::internal {
 [[nodiscard]] FitDraft make_draft(const std::vector<FitTask>& tasks, const ToolModel& tool,
                                   const FlankFitOptions& options);
 
-/// A draft of these tasks for the quick pass: a free tool starts as a cylinder with the number of coefficients that the
-/// pass has. (make_draft measures the radius instead; here it is what tells the candidates apart.)
-[[nodiscard]] FitDraft start_draft(const std::vector<FitTask>& tasks, const ToolModel& tool, double radius);
+/// A free tool to start from: radius at the tip, and r', 0 for a cylinder.
+[[nodiscard]] RadialFunction start_tool(double axis_length, double radius, double slope, int coefficients);
+
+/// A draft of these tasks for the quick pass: a free tool starts as a cylinder or, if r' is given, as a cone, with the number of coefficients
+/// that the pass has. (make_draft measures the radius instead; here it is what tells the candidates apart.)
+[[nodiscard]] FitDraft start_draft(const std::vector<FitTask>& tasks, const ToolModel& tool, double radius,
+                                   double slope = 0.0);
 
 /// Least squares, then either the exact passes (residual near zero) or the tolerance pass, then `reduce_overcut` radii for a
 /// free tool. Returns the best that it saw by score, at worst the draft itself; `trace` grows if given.

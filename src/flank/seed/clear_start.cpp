@@ -14,33 +14,34 @@ constexpr double kOverrun = 0.03;  ///< a free end is passed by this share of th
 
 using Line = ClearStart::Line;
 
-/// Distance of the ball on a line to the walls; also about how far along the line nothing changes. A ball on the
-/// border of the target touches what begins there, and the chart is good to a few hundredths of a radius: as good as
-/// free.
-double gap_at(const FittedLine& axis, double sigma, double radius, const ObstacleField& obstacles) {
+/// Distance of the ball on a line to the walls. A ball on the border of the target touches what begins there, and the chart is
+/// good to a few hundredths of a radius: as good as free.
+double gap_at(const FittedLine& axis, double sigma, const RuledStart& start, const ObstacleField& obstacles) {
   constexpr double kGood = 0.995;  // radii: see above
+  const double radius = radius_at(start, 0.5 * axis.length + (start.tip_high ? -sigma : sigma));
   return obstacles.beside(axis.middle + sigma * axis.direction, kGood * radius) - kGood * radius;
 }
 
 /// Where between a free and a blocked place the ball touches.
-double touch(const FittedLine& axis, double free, double blocked, double radius, const ObstacleField& obstacles) {
+double touch(const FittedLine& axis, double free, double blocked, const RuledStart& start,
+             const ObstacleField& obstacles) {
   constexpr int kHalvings = 12;  // of one step of 48: 5e-6 of the line
   for (int k = 0; k < kHalvings; ++k) {
     const double middle = 0.5 * (free + blocked);
-    (gap_at(axis, middle, radius, obstacles) >= 0.0 ? free : blocked) = middle;
+    (gap_at(axis, middle, start, obstacles) >= 0.0 ? free : blocked) = middle;
   }
   return free;
 }
 
 /// The longest free stretch of the line over its own length.
-Line free_stretch(const FittedLine& axis, double radius, const ObstacleField& obstacles) {
+Line free_stretch(const FittedLine& axis, const RuledStart& start, const ObstacleField& obstacles) {
   Line line{axis};
   const double step = axis.length / kSteps, end = 0.5 * axis.length;
   // `begin`: of the present stretch; `seen`: the last free place of it; `wall`: the last blocked place.
   double begin = end, seen = end, wall = -2.0 * end;
   bool inside = false, blocked_before = false;
   const auto close = [&](double blocked, bool by_wall) {
-    const double high = by_wall ? touch(axis, seen, blocked, radius, obstacles) : end;
+    const double high = by_wall ? touch(axis, seen, blocked, start, obstacles) : end;
     if (high - begin > line.high - line.low) {
       line.low = begin;
       line.high = high;
@@ -51,11 +52,11 @@ Line free_stretch(const FittedLine& axis, double radius, const ObstacleField& ob
     inside = false;
   };
   for (double sigma = -end;;) {
-    const double gap = gap_at(axis, sigma, radius, obstacles);
+    const double gap = gap_at(axis, sigma, start, obstacles);
     if (gap >= 0.0) {
       if (!inside) {
         blocked_before = wall >= -end;
-        begin = blocked_before ? touch(axis, sigma, wall, radius, obstacles) : -end;
+        begin = blocked_before ? touch(axis, sigma, wall, start, obstacles) : -end;
         inside = true;
       }
       seen = sigma;
@@ -64,8 +65,8 @@ Line free_stretch(const FittedLine& axis, double radius, const ObstacleField& ob
       wall = sigma;
     }
     if (sigma >= end) break;
-    // A distance is 1-Lipschitz: for |gap| along the line nothing changes, neither free nor blocked.
-    sigma = std::min(end, sigma + std::max(step, std::abs(gap)));
+    // A distance is 1-Lipschitz: for |gap| along the line of a cylinder nothing changes, neither free nor blocked.
+    sigma = std::min(end, sigma + std::max(step, std::abs(gap) / (1.0 + std::sin(start.lean_rad))));
   }
   if (inside) close(end, false);
   line.free = line.free && line.high - line.low > step;
@@ -75,7 +76,7 @@ Line free_stretch(const FittedLine& axis, double radius, const ObstacleField& ob
 /// The line of time t, fitted again to what is free of its contact line.
 Line clear_line(const Chart& chart, const RuledStart& start, double t, const ObstacleField& obstacles) {
   RuledStart band = start;
-  Line line = free_stretch(axis_line(chart, band, t), start.radius_mm, obstacles);
+  Line line = free_stretch(axis_line(chart, band, t), start, obstacles);
   for (int k = 0; k < kRefits && line.free && (line.low_blocked || line.high_blocked); ++k) {
     const double width = band.band_high - band.band_low;
     const double low = band.band_low + width * (line.low / line.axis.length + 0.5);
@@ -84,7 +85,7 @@ Line clear_line(const Chart& chart, const RuledStart& start, double t, const Obs
     constexpr double kKept = 0.04;  // of the target's width
     if (line.low_blocked) band.band_low = std::max(start.band_low, low - kKept);
     if (line.high_blocked) band.band_high = std::min(start.band_high, high + kKept);
-    const Line next = free_stretch(axis_line(chart, band, t), start.radius_mm, obstacles);
+    const Line next = free_stretch(axis_line(chart, band, t), start, obstacles);
     if (!next.free) break;
     line = next;
   }
@@ -138,6 +139,7 @@ double first_free(const Chart& chart, const RuledStart& start, const ObstacleFie
 
 ClearStart clear_start(const Chart& chart, const RuledStart& start, const ObstacleField& obstacles) {
   ClearStart clear;
+  if (start.lean_rad > 0.0) clear.tip_high = start.tip_high;
   clear.first = start.first;
   clear.last = start.last;
   clear.lines = lines_between(chart, start, obstacles, clear.first, clear.last);
@@ -175,8 +177,8 @@ RuledMotion make_motion(const ClearStart& start, double axis_length, int count) 
     low += line.low_blocked ? 1 : 0;
     high += line.high_blocked ? 1 : 0;
   }
-  // The tip goes to the wall, the holder to the open side.
-  const bool reversed = high > low;
+  // The tip goes to the wall, the holder to the open side, where a lean does not say which end is the tip.
+  const bool reversed = start.tip_high.value_or(high > low);
   std::vector<Pose> poses;
   std::vector<double> times;
   for (std::size_t i = 0; i < start.lines.size(); ++i) {

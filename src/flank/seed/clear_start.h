@@ -19,6 +19,7 @@ struct ClearStart {
     bool free = false;                               ///< false: no stretch is free; taken from its neighbours
   };
   std::vector<Line> lines;         ///< at kStartTimes times
+  std::optional<bool> tip_high;    ///< of a start that leans: the tip is at the lines' high end
   double first = 0.0, last = 1.0;  ///< of these times: less where lines at the ends are blocked altogether
   double longest_mm = 0.0;         ///< free stretch
   int free_lines = 0;
@@ -29,7 +30,7 @@ struct ClearStart {
 /// altogether, the times are squeezed into what is free and half a radius of the ball past it.
 [[nodiscard]] ClearStart clear_start(const Chart& chart, const RuledStart& start, const ObstacleField& obstacles);
 
-/// The motion with its tip at the blocked end of each line and the rest of the axis past the other end. The tip is at
+/// The motion with its tip at the blocked end of each line and the rest of the axis past the other end. Unless the start leans, the tip is at
 /// the lines' low end if most walls are there, else the lines are reversed. A line without a wall starts a little
 /// before its free stretch; if no line has one, all are centred. Needs a start with free lines.
 [[nodiscard]] RuledMotion make_motion(const ClearStart& start, double axis_length, int count);

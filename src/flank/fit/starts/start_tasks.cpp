@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "flank/fit/starts/upper_end.h"
 #include "flank/seed/clear_start.h"
@@ -78,11 +79,43 @@ std::vector<FitTask> make_free_tasks(const Target& target, const Chart& chart, c
   return tasks;
 }
 
+/// Of the axis from the surface, where it cannot lie along it.
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr std::array kLeans = {15.0 * kDegree, 30.0 * kDegree, 45.0 * kDegree};
+
+/// The start as a cone of about the same radii over `length` of contact; none where the bounds leave no such cone.
+std::optional<RuledStart> leaned(const RuledStart& start, double lean, bool tip_high, double length,
+                                 const RadiusBounds& bounds) {
+  constexpr double kThinnest = 0.3;  // of the radius of the cylinder: the tip
+  const double grows = length * std::tan(lean);
+  const double tip = std::max({bounds.smallest, kThinnest * start.radius_mm, start.radius_mm - 0.5 * grows});
+  if (tip + grows > bounds.largest || std::sin(lean) > bounds.steepest) return std::nullopt;
+  RuledStart leaning = start;
+  leaning.radius_mm = tip;
+  leaning.lean_rad = lean;
+  leaning.tip_high = tip_high;
+  return leaning;
+}
+
+LaidStart laid(const Target& target, const Chart& chart, const RuledStart& start, const ToolModel& tool,
+               const FlankFitOptions& options) {
+  LaidStart laid{start, {}};
+  if (options.obstacles != nullptr) laid.tasks = make_clear_tasks(target, chart, start, tool, options);
+  if (laid.tasks.empty()) laid.tasks = make_free_tasks(target, chart, start, tool, options);
+  return laid;
+}
+
+/// The largest share of all motions at which nothing could hold the tool.
+double unheld_of(const LaidStart& laid, const FlankFitOptions& options) {
+  double largest = 0.0;
+  for (const FitTask& task : laid.tasks) largest = std::max(largest, unheld_share(task.motion, options));
+  return largest;
+}
+
 }  // namespace
 
 std::vector<RuledStart> enumerate_starts(const Chart& chart, const ToolModel& tool, const FlankFitOptions& options,
                                          std::initializer_list<bool> ways) {
-  constexpr double kDegree = std::numbers::pi / 180.0;
   // Degrees between contact lines and the chart's lines. Five (MATH section 7), of either sign, because nothing tells
   // which way a blade twists. No start is farther than 6.5 degrees from a direction up to 31 degrees; the fit turns the
   // rest.
@@ -104,13 +137,25 @@ std::vector<RuledStart> enumerate_starts(const Chart& chart, const ToolModel& to
   return starts;
 }
 
-std::vector<FitTask> make_tasks(const Target& target, const Chart& chart, const RuledStart& start,
-                                const ToolModel& tool, const FlankFitOptions& options) {
-  std::vector<FitTask> tasks;
-  if (options.obstacles != nullptr) tasks = make_clear_tasks(target, chart, start, tool, options);
-  if (tasks.empty()) tasks = make_free_tasks(target, chart, start, tool, options);
-  hold_from_free_end(options, tasks);
-  return tasks;
+LaidStart lay_start(const Target& target, const Chart& chart, const RuledStart& start, const ToolModel& tool,
+                    const FlankFitOptions& options) {
+  LaidStart best = laid(target, chart, start, tool, options);
+  hold_from_free_end(options, best.tasks);
+  double unheld = unheld_of(best, options);
+  if (!tool.free() || start.radius_mm <= 0.0) return best;
+  const double length = longest_chord(chart, start);
+  for (const double lean : kLeans)
+    for (const bool tip_high : {false, true}) {
+      if (unheld <= 0.0) return best;
+      const std::optional<RuledStart> leaning = leaned(start, lean, tip_high, length, options.bounds);
+      if (!leaning) continue;
+      LaidStart tried = laid(target, chart, *leaning, tool, options);
+      const double share = unheld_of(tried, options);
+      if (tried.tasks.empty() || share >= unheld) continue;
+      best = std::move(tried);
+      unheld = share;
+    }
+  return best;
 }
 
 }  // namespace flank::internal

@@ -15,9 +15,15 @@ namespace flank::internal {
                                                        const FlankFitOptions& options,
                                                        std::initializer_list<bool> ways);
 
-/// The motions of a start, one per strip, bands side by side, all of one axis length; with options.obstacles, cut to what is
-/// free. Empty where no line is.
-[[nodiscard]] std::vector<FitTask> make_tasks(const Target& target, const Chart& chart, const RuledStart& start,
-                                              const ToolModel& tool, const FlankFitOptions& options);
+/// A start and its motions, one per strip, bands side by side, all of one axis length.
+struct LaidStart {
+  RuledStart start;
+  std::vector<FitTask> tasks;
+};
+
+/// The start laid over the target; with options.obstacles, cut to what is free. No tasks where no line is. A free tool leans away from
+/// the target, as a cone, by as little as it must for something to hold it (FlankFitOptions::is_free_line).
+[[nodiscard]] LaidStart lay_start(const Target& target, const Chart& chart, const RuledStart& start,
+                                  const ToolModel& tool, const FlankFitOptions& options);
 
 }  // namespace flank::internal

@@ -42,7 +42,8 @@ RuledMotion turned_over(const RuledMotion& motion) {
 }
 
 double unheld_share(const RuledMotion& motion, const FlankFitOptions& options) {
-  return blocked_share(motion, motion.axis_length, 0.0, options);
+  return blocked_share(motion, motion.axis_length, options.bounds.shank_in_the_way ? options.bounds.shank_radius : 0.0,
+                       options);
 }
 
 double unheld_share(const std::vector<RuledMotion>& motions, const RadialFunction& tool,

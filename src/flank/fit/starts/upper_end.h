@@ -10,7 +10,8 @@ namespace flank::internal {
 /// The motion with tip and upper end of its axis exchanged.
 [[nodiscard]] RuledMotion turned_over(const RuledMotion& motion);
 
-/// Share of a motion, by samples, at which the axis, continued beyond its upper end, runs into something (FlankFitOptions::is_free_line).
+/// Share of a motion, by samples, at which a rod in the axis, continued beyond its upper end, runs into something
+/// (FlankFitOptions::is_free_line): as thick as the shank if that is in the way, else a line.
 [[nodiscard]] double unheld_share(const RuledMotion& motion, const FlankFitOptions& options);
 /// The largest of several motions of a tool, of a rod in the axis as the judge has it (clearance.h, HoldReport::axis).
 [[nodiscard]] double unheld_share(const std::vector<RuledMotion>& motions, const RadialFunction& tool,
