@@ -78,10 +78,10 @@ Result found_beside(const std::function<Result(Result first)>& second) {
   first.chord_bound_mm = 0.125;
   first.verify.clearance.figures.resize(1);
   first.verify.clearance.figures[0].kept = false;
-  const ShankPlan<FitJob> plan = [&](const FitJob&, bool in_the_way, const Progress&) {
-    return in_the_way ? second(first) : first;
+  const ShankPlan<FitJob> plan = [&](const FitJob&, KnownShank known, const Progress&) {
+    return known == KnownShank::kInTheWay ? second(first) : first;
   };
-  return with_room_for_shank<FitJob>(FitJob{}, false, plan, {});
+  return with_room_for_shank<FitJob>(FitJob{}, false, kAnySlenderness, plan, {});
 }
 
 TEST(RoomForShank, AStopOfTheSecondPlanKeepsWhatTheFirstFound) {
@@ -95,6 +95,51 @@ TEST(RoomForShank, AStopOfTheSecondPlanKeepsWhatTheFirstFound) {
     EXPECT_EQ(found.chord_bound_mm, 0.125);
     EXPECT_FALSE(found.complete);
     EXPECT_TRUE(found.journal) << "it can be gone on with";
+  }
+}
+
+/// A plan without a fault whose tool has this radius and a shank of this length.
+Result sound_plan(double radius, double shank_mm) {
+  Result result;
+  result.complete = true;
+  result.tool.radial = RadialFunction(ToolFamily::kCylinder, 20.0, Eigen::VectorXd::Constant(1, radius));
+  result.tool.shank = {{20.0, radius}, {20.0 + shank_mm, radius}};
+  result.verify.verdict = Verdict::kPass;
+  result.verify.coverage = result.verify.coverage_reachable = result.verify.reachable_share = 1.0;
+  result.verify.coverage_bound = result.verify.coverage_reachable_bound = 1.0;
+  FitJob job;
+  job.obstacles.shank_length_mm = shank_mm;
+  result.job = job;
+  return result;
+}
+
+TEST(RoomForShank, ATooSlenderToolIsPlannedAgainWithTheLengthOfItsShank) {
+  ASSERT_TRUE(sound_plan(1.0, 40.0).acceptance().reasons.empty());
+  std::vector<double> lengths;
+  const ShankPlan<FitJob> plan = [&](const FitJob& job, KnownShank known, const Progress&) {
+    if (known == KnownShank::kNothing) return sound_plan(1.0, 40.0);
+    EXPECT_EQ(known, KnownShank::kLength);
+    EXPECT_FALSE(job.obstacles.shank_radius_mm) << "it is chosen anew";
+    lengths.push_back(*job.obstacles.shank_length_mm);
+    // Its axis leans otherwise, and has a longer way out of the part.
+    return lengths.size() == 1 ? sound_plan(4.0, 60.0) : sound_plan(5.5, 62.0);
+  };
+  const Result found = with_room_for_shank<FitJob>(FitJob{}, false, 8.0, plan, {});
+  EXPECT_EQ(lengths, (std::vector<double>{40.0, 60.0}));
+  EXPECT_LE(stiffness(found.tool).slenderness, 8.0);
+  lengths.clear();
+  EXPECT_EQ(with_room_for_shank<FitJob>(FitJob{}, false, kAnySlenderness, plan, {}).tool.radial.at(0.0).r, 1.0);
+  EXPECT_TRUE(lengths.empty()) << "nobody has bound the stiffness of a given tool";
+}
+
+TEST(RoomForShank, ASecondPlanThatIsNoStifferOrHasAFaultIsNotTaken) {
+  Result faulty = sound_plan(6.0, 40.0);
+  faulty.verify.coverage_reachable = 0.5;
+  for (const Result& second : {sound_plan(0.9, 40.0), faulty}) {
+    const ShankPlan<FitJob> plan = [&](const FitJob&, KnownShank known, const Progress&) {
+      return known == KnownShank::kNothing ? sound_plan(1.0, 40.0) : second;
+    };
+    EXPECT_EQ(with_room_for_shank<FitJob>(FitJob{}, false, 8.0, plan, {}).tool.radial.at(0.0).r, 1.0);
   }
 }
 

@@ -14,7 +14,7 @@ double slenderness_of(const RadialFunction& radial, const RadiusBounds& bounds) 
   if (!radial.parameters().allFinite()) return std::numeric_limits<double>::infinity();
   const double length = radial.axis_length();
   if (bounds.shank_length > 0.0) {
-    const double radius = bounds.shank_radius > 0.0 ? bounds.shank_radius : radial.at(length).r;
+    const double radius = bounds.shank_radius > 0.0 ? bounds.shank_radius : meridian_point(radial, length).y();
     tool.shank = {{length, radius}, {length + bounds.shank_length, radius}};
   }
   return stiffness(tool).slenderness;

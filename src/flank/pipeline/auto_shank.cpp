@@ -74,6 +74,13 @@ void choose_clear_shank(const ClearanceScene& scene, const Path& path, const Box
   choose_shank(flank, path, part, obstacles);
   obstacles.shank = "given";
   if (!open) return;
+  // A standard one is a little thinner than the flank.
+  ObstacleRequest thick = obstacles;
+  thick.shank_radius_mm.reset();
+  const auto stiff = [&](const ObstacleRequest& request) {
+    return stiffness(with_shank(request, flank)).slenderness <= slenderest;
+  };
+  if (!stiff(obstacles) && stiff(thick)) obstacles = thick;
   // Out of contact, or else no deeper than is allowed.
   for (const double least_mm : {0.0, -1e300}) {
     if (keeps_clear(scene, with_shank(obstacles, flank), path, least_mm)) return;
@@ -98,47 +105,73 @@ std::string default_shank(const ObstacleRequest& request, bool own_body) {
 
 namespace {
 
-/// The plan with the shank in the way; nothing if it was stopped, however early.
+/// The second plan; nothing if it was stopped, however early.
 template <class Job>
-std::optional<Result> whole_of(const ShankPlan<Job>& plan, const Job& job, const Progress& progress) {
+std::optional<Result> whole_of(const ShankPlan<Job>& plan, const Job& job, KnownShank known, const Progress& progress) {
   try {
-    Result result = plan(job, true, progress);
+    Result result = plan(job, known, progress);
     if (result.complete) return result;
-  } catch (const Stopped&) {  // what was found without it in the way stays
+  } catch (const Stopped&) {  // what was found before stays
   }
   return std::nullopt;
+}
+
+/// The job once more, with what the first plan `made` of its obstacles.
+template <class Job>
+Job with_shank_of(const ObstacleRequest& made, const Job& job, KnownShank known) {
+  Job with = job;
+  with.obstacles = made;
+  if (known == KnownShank::kLength) with.obstacles.shank_radius_mm = job.obstacles.shank_radius_mm;
+  return with;
+}
+
+bool is_better(const Result& again, const Result& found) {
+  const std::size_t now = again.acceptance().reasons.size(), before = found.acceptance().reasons.size();
+  return now < before || (now == before && stiffness(again.tool).slenderness < stiffness(found.tool).slenderness);
+}
+
+/// What keeps a plan from being used, and a plan that knows of its shank may do better; nothing if there is none such.
+std::optional<KnownShank> known_next(const Result& found, bool chosen, double slenderest) {
+  const Acceptance acceptance = found.acceptance();
+  // Where nothing at all could hold the tool there is no room for any shank.
+  if (fails_by(acceptance, Figure::kClearance) && !fails_by(acceptance, Figure::kHold)) return KnownShank::kInTheWay;
+  const bool slender = chosen && acceptance.reasons.empty() && stiffness(found.tool).slenderness > slenderest;
+  return slender ? std::optional(KnownShank::kLength) : std::nullopt;
 }
 
 }  // namespace
 
 template <class Job>
-Result with_room_for_shank(const Job& job, bool always, const ShankPlan<Job>& plan, const Progress& asked) {
+Result with_room_for_shank(const Job& job, bool always, double slenderest, const ShankPlan<Job>& plan,
+                           const Progress& asked) {
   constexpr double kFirst = 0.8;  // of the progress
+  constexpr int kMost = 2;        // plans more: an axis that leans otherwise has another way out of the part
   const Progress progress = with_journal(asked);
-  Result found = plan(job, false, progress.part(0.0, kFirst));
-  const ObstacleRequest made = std::get<Job>(found.job).obstacles;
-  const bool chosen = made.shank_length_mm && !job.obstacles.shank_length_mm;
-  const Acceptance first = found.acceptance();
-  // Where nothing at all could hold the tool there is no room for any shank.
-  const bool in_the_way = fails_by(first, Figure::kClearance) && !fails_by(first, Figure::kHold);
-  if (found.complete && made.shank_length_mm && (chosen || !always) && in_the_way) {
-    Job with = job;
-    with.obstacles = made;
-    const std::optional<Result> again = whole_of(plan, with, progress.part(kFirst, 1.0));
+  Result found = plan(job, KnownShank::kNothing, progress.part(0.0, kFirst));
+  const auto shank = [&]() -> const ObstacleRequest& { return std::get<Job>(found.job).obstacles; };
+  const bool chosen = shank().shank_length_mm && !job.obstacles.shank_length_mm;
+  for (int k = 0; k < kMost && found.complete && shank().shank_length_mm && (chosen || !always); ++k) {
+    const std::optional<KnownShank> known = known_next(found, chosen, slenderest);
+    if (!known) break;
+    const std::optional<Result> again =
+        whole_of(plan, with_shank_of(shank(), job, *known), *known, progress.part(kFirst, 1.0));
     if (!again) {
       found.complete = false;
       found.journal = progress.journal;
-    } else if (again->acceptance().reasons.size() < first.reasons.size()) {
+    } else if (is_better(*again, found)) {
       found = *again;
+    } else {
+      break;
     }
   }
-  if (chosen) note_chosen_shank(found.tool, std::get<Job>(found.job).obstacles, found.notes);
+  if (chosen) note_chosen_shank(found.tool, shank(), found.notes);
   return found;
 }
 
-template Result with_room_for_shank<FitJob>(const FitJob&, bool, const ShankPlan<FitJob>&, const Progress&);
-template Result with_room_for_shank<CoverJob>(const CoverJob&, bool, const ShankPlan<CoverJob>&, const Progress&);
-template Result with_room_for_shank<TrochoidJob>(const TrochoidJob&, bool, const ShankPlan<TrochoidJob>&,
+template Result with_room_for_shank<FitJob>(const FitJob&, bool, double, const ShankPlan<FitJob>&, const Progress&);
+template Result with_room_for_shank<CoverJob>(const CoverJob&, bool, double, const ShankPlan<CoverJob>&,
+                                              const Progress&);
+template Result with_room_for_shank<TrochoidJob>(const TrochoidJob&, bool, double, const ShankPlan<TrochoidJob>&,
                                                  const Progress&);
 
 }  // namespace flank::internal

@@ -10,6 +10,8 @@
 
 namespace flank::internal {
 
+inline constexpr double kAnySlenderness = 1e300;  ///< of a tool whose stiffness nobody has bound
+
 /// "auto" where nothing says what stands above the flank: no shank or holder is given, and the tool (`own_body`) brings none.
 [[nodiscard]] std::string default_shank(const ObstacleRequest& request, bool own_body);
 
@@ -23,15 +25,22 @@ void choose_clear_shank(const ClearanceScene& scene, const Path& path, const Box
 void take_clear_shank(const ClearanceScene& scene, const Box3& part, double slenderest, ObstacleRequest& obstacles,
                       Result& result);
 
-/// A plan of a job, with its shank in the way from the beginning or not.
+/// What a plan knows of a shank that nobody has given.
+enum class KnownShank {
+  kNothing,
+  kLength,    ///< at least the job's: what is found must be stiff enough with it, and a shank is chosen for that
+  kInTheWay,  ///< all of it: the job's, in the way from the beginning
+};
+
+/// A plan of a job.
 template <class Job>
-using ShankPlan = std::function<Result(const Job& job, bool in_the_way, const Progress& progress)>;
+using ShankPlan = std::function<Result(const Job& job, KnownShank known, const Progress& progress)>;
 
 /// Plans; `plan` may choose a shank for what it found. Where the shank comes too near, plans again with it in the way from the beginning, which
-/// `plan` does with a given one already if `always`; the better of the two. A note says the figures of a chosen one. The journal has the steps
-/// of both.
+/// `plan` does with a given one already if `always`. Where the tool is too slender with it (more than `slenderest`), plans again with its length
+/// known. The better of the two. A note says the figures of a chosen one. The journal has the steps of both.
 template <class Job>
-[[nodiscard]] Result with_room_for_shank(const Job& job, bool always, const ShankPlan<Job>& plan,
+[[nodiscard]] Result with_room_for_shank(const Job& job, bool always, double slenderest, const ShankPlan<Job>& plan,
                                          const Progress& progress);
 
 }  // namespace flank::internal

@@ -99,7 +99,7 @@ void ask_for_reach(const CoverJob& job, const Setup& setup, const std::vector<Co
 }
 
 /// A shank that is to be chosen is that of the path found.
-Result plan_cover(const CoverJob& request, bool /*shank_in_the_way*/, const Progress& asked) {
+Result plan_cover(const CoverJob& request, KnownShank /*known*/, const Progress& asked) {
   const Progress progress = with_journal(asked);
   check_fields(request);
   (void)options_of(request);
@@ -151,7 +151,7 @@ Result plan_cover(const CoverJob& request, bool /*shank_in_the_way*/, const Prog
 }  // namespace
 
 Result run_cover(const CoverJob& request, const Progress& asked) {
-  return with_room_for_shank<CoverJob>(request, true, plan_cover, asked);
+  return with_room_for_shank<CoverJob>(request, true, kAnySlenderness, plan_cover, asked);
 }
 
 }  // namespace flank

@@ -255,9 +255,9 @@ decltype(FitDemand::is_free_line) free_line_in(const ClearanceScene& scene) {
   return [tree, least](const Vec3& from, const Vec3& direction) { return !meets(*tree, from, direction, least); };
 }
 
-/// A search and its verdict. `read`: what is known before.
+/// A search and its verdict. `read`: what is known before. `open_shank`: one is chosen for what was found.
 Result search_and_judge(const Setup& setup, const ClearanceScene& scene, const ToolSpec& spec, Result read,
-                        const FitDemand& demand, const Progress& progress) {
+                        const FitDemand& demand, bool open_shank, const Progress& progress) {
   FitJob job = std::get<FitJob>(read.job);
   Result result = std::move(read);
   Stopwatch watch(result);
@@ -265,7 +265,7 @@ Result search_and_judge(const Setup& setup, const ClearanceScene& scene, const T
   const double judged_at = job.stiffness_curve ? 0.5 : 0.9;
   FitSearch search = search_fit(job, setup, spec, progress.part(0.0, judged_at), demand);
   if (search.fit.motions.empty()) stop_here();  // nothing takes the place of an earlier result
-  if (job.obstacles.shank == "auto" && !search.fit.motions.empty())
+  if (open_shank && !search.fit.motions.empty())
     choose_shank(job, setup, scene, search, found_tool(spec, search.fit.tool, {}), job.obstacles);
   std::get<FitJob>(result.job).obstacles = job.obstacles;
   if (spec.free && !stopping()) lift_shank(job, scene, search, result.notes);
@@ -308,7 +308,7 @@ ReadPart read_part_of(const FitJob& job, const ToolSpec& spec) {
 }
 
 /// A shank that is to be chosen is that of the motions found. `part`: read by an earlier plan of this job, if there was one.
-Result plan_fit(const FitJob& request, bool shank_in_the_way, const Progress& asked, std::optional<ReadPart>& part) {
+Result plan_fit(const FitJob& request, KnownShank known, const Progress& asked, std::optional<ReadPart>& part) {
   const Progress progress = with_journal(asked);
   check_job(request);
   Result result;
@@ -334,12 +334,14 @@ Result plan_fit(const FitJob& request, bool shank_in_the_way, const Progress& as
   stop_here();
 
   const Result read = result;
-  result = search_and_judge(setup, scene, spec, read, {0.0, free_line_in(scene), shank_in_the_way}, progress);
+  const bool in_the_way = known == KnownShank::kInTheWay,
+             open = job.obstacles.shank == "auto" || known == KnownShank::kLength;
+  result = search_and_judge(setup, scene, spec, read, {0.0, free_line_in(scene), in_the_way}, open, progress);
   const double estimate = std::get<FitSummary>(result.plan).after.coverage;
   const double spare = result.complete ? spare_needed(job, result.verify, estimate) : 0.0;
   if (spare > 0.0) {
     try {
-      Result stricter = search_and_judge(setup, scene, spec, read, {spare, free_line_in(scene), shank_in_the_way},
+      Result stricter = search_and_judge(setup, scene, spec, read, {spare, free_line_in(scene), in_the_way}, open,
                                          once_more(progress));
       if (passes(stricter)) result = std::move(stricter);
     } catch (const Stopped&) {  // what was found before is whole
@@ -353,10 +355,11 @@ Result plan_fit(const FitJob& request, bool shank_in_the_way, const Progress& as
 
 Result run_fit(const FitJob& request, const Progress& asked) {
   std::optional<ReadPart> part;
-  const ShankPlan<FitJob> plan = [&](const FitJob& job, bool in_the_way, const Progress& progress) {
-    return plan_fit(job, in_the_way, progress, part);
+  const ShankPlan<FitJob> plan = [&](const FitJob& job, KnownShank known, const Progress& progress) {
+    return plan_fit(job, known, progress, part);
   };
-  return with_room_for_shank<FitJob>(request, false, plan, asked);
+  const double slenderest = parse_tool_spec(request.tool.spec).free ? request.radius.slenderness_max : kAnySlenderness;
+  return with_room_for_shank<FitJob>(request, false, slenderest, plan, asked);
 }
 
 }  // namespace flank

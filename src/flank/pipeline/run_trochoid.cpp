@@ -213,7 +213,8 @@ void take(const CavityPlan& plan, const TrochoidJob& job, const ToolSpec& spec, 
 }
 
 /// A shank that is to be chosen is that of the path found.
-Result plan_trochoid(const TrochoidJob& request, bool shank_in_the_way, const Progress& asked) {
+Result plan_trochoid(const TrochoidJob& request, KnownShank known, const Progress& asked) {
+  const bool shank_in_the_way = known == KnownShank::kInTheWay;
   const Progress progress = with_journal(asked);
   check_job(request);
   Result result;
@@ -271,7 +272,7 @@ Result plan_trochoid(const TrochoidJob& request, bool shank_in_the_way, const Pr
 }  // namespace
 
 Result run_trochoid(const TrochoidJob& request, const Progress& asked) {
-  return with_room_for_shank<TrochoidJob>(request, false, plan_trochoid, asked);
+  return with_room_for_shank<TrochoidJob>(request, false, kAnySlenderness, plan_trochoid, asked);
 }
 
 }  // namespace flank

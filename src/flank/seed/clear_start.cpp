@@ -66,7 +66,7 @@ Line free_stretch(const FittedLine& axis, const RuledStart& start, const Obstacl
     }
     if (sigma >= end) break;
     // A distance is 1-Lipschitz: for |gap| along the line of a cylinder nothing changes, neither free nor blocked.
-    sigma = std::min(end, sigma + std::max(step, std::abs(gap) / (1.0 + std::sin(start.lean_rad))));
+    sigma = std::min(end, sigma + std::max(step, std::abs(gap) / (1.0 + std::abs(std::sin(start.lean_rad)))));
   }
   if (inside) close(end, false);
   line.free = line.free && line.high - line.low > step;
@@ -139,7 +139,7 @@ double first_free(const Chart& chart, const RuledStart& start, const ObstacleFie
 
 ClearStart clear_start(const Chart& chart, const RuledStart& start, const ObstacleField& obstacles) {
   ClearStart clear;
-  if (start.lean_rad > 0.0) clear.tip_high = start.tip_high;
+  if (start.lean_rad != 0.0) clear.tip_high = start.tip_high;
   clear.first = start.first;
   clear.last = start.last;
   clear.lines = lines_between(chart, start, obstacles, clear.first, clear.last);

@@ -81,7 +81,7 @@ RuledMotion make_motion(const Chart& chart, const RuledStart& start, double axis
     const double t = i / (kStartTimes - 1.0);
     const FittedLine line = axis_line(chart, start, start.first + (start.last - start.first) * t);
     const Vec3 u = start.tip_high ? Vec3(-line.direction) : line.direction;
-    poses.push_back({line.middle - 0.5 * (start.lean_rad > 0.0 ? line.length : axis_length) * u, u});
+    poses.push_back({line.middle - 0.5 * (start.lean_rad != 0.0 ? line.length : axis_length) * u, u});
     times.push_back(t);
   }
   return fit_motion(poses, times, axis_length, count);

@@ -86,7 +86,9 @@ std::vector<double> radii_at(const RadialFunction& tool, const std::vector<doubl
   return radii;
 }
 
-/// Compliance of the shank above a flank whose upper end has radius `top`: the integral of z^2 / r^4.
+constexpr double kLeastCosine = 0.01;  ///< squared: of a flank so steep that nothing stands above it
+
+/// Compliance of the shank above a flank whose upper end is `top` from the axis: the integral of z^2 / r^4.
 double shank_compliance(const RadiusBounds& bounds, double length, double top) {
   if (bounds.shank_length <= 0.0) return 0.0;
   const double radius = bounds.shank_radius > 0.0 ? bounds.shank_radius : top;
@@ -97,7 +99,9 @@ double shank_compliance(const RadiusBounds& bounds, double length, double top) {
 /// By how much the tool is too slender, in mm, and that by the parameters if asked.
 double slenderness_excess(const RadialFunction& tool, const RadiusBounds& bounds, Eigen::VectorXd* gradient) {
   if (bounds.slenderest >= 1e300) return 0.0;
-  const double length = tool.axis_length(), top = tool.at(length).r;
+  const double length = tool.axis_length();
+  const RadialJet upper = tool.at(length);
+  const double cosine = std::sqrt(std::max(kLeastCosine, 1.0 - upper.d1 * upper.d1)), top = upper.r * cosine;
   Eigen::VectorXd by_parameters;
   const double flank = gradient != nullptr ? compliance(tool, by_parameters) : compliance(tool);
   const double shank = shank_compliance(bounds, length, top);
@@ -106,7 +110,10 @@ double slenderness_excess(const RadialFunction& tool, const RadiusBounds& bounds
   // Without a radius there is nothing to follow: the bound on the radius pulls it back.
   if (!(lambda > limit) || !std::isfinite(lambda)) return 0.0;
   if (gradient != nullptr) {
-    if (shank > 0.0 && bounds.shank_radius <= 0.0) by_parameters -= (4.0 * shank / top) * gradient_at(tool, length);
+    if (shank > 0.0 && bounds.shank_radius <= 0.0) {
+      const JetGradient by = jet_gradient(tool, length);
+      by_parameters -= (4.0 * shank / top) * (cosine * by.r - (upper.r * upper.d1 / cosine) * by.d1);
+    }
     // lambda grows as the fourth root of the compliance.
     *gradient = (length * lambda / (limit * 4.0 * (flank + shank))) * by_parameters;
   }
