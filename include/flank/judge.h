@@ -156,13 +156,14 @@ struct FaceVerdict {
   bool target = false;
   double area_mm2 = 0.0;
   std::size_t samples = 0;
-  double overcut_mm = 0.0;           ///< max(0, -f) over the face
-  double undercut_mm = 0.0;          ///< max(0, f) over the face (target)
-  double undercut_covered_mm = 0.0;  ///< largest f over the samples that a strip sweeps past (see judge.md)
-  double rms_mm = 0.0;               ///< of f over the samples that a strip sweeps past
-  double coverage = 0.0;             ///< area share with |f| <= tolerance
-  double reachable_share = 0.0;      ///< of the area (target)
-  double coverage_reachable = 0.0;   ///< the same share of the reachable area alone; 0 where nothing is reachable
+  double overcut_mm = 0.0;             ///< max(0, -f) over the face
+  double undercut_mm = 0.0;            ///< max(0, f) over the face (target)
+  Vec3 undercut_point = Vec3::Zero();  ///< where that is
+  double undercut_covered_mm = 0.0;    ///< largest f over the samples that a strip sweeps past (see judge.md)
+  double rms_mm = 0.0;                 ///< of f over the samples that a strip sweeps past
+  double coverage = 0.0;               ///< area share with |f| <= tolerance
+  double reachable_share = 0.0;        ///< of the area (target)
+  double coverage_reachable = 0.0;     ///< the same share of the reachable area alone; 0 where nothing is reachable
   /// Lower bounds of `coverage` and `coverage_reachable`, proved cell by cell (target; needs the face's shape). Areas and
   /// reachable shares are measured.
   double coverage_bound = 0.0, coverage_reachable_bound = 0.0;
@@ -231,6 +232,15 @@ struct FinerReach {
   double reachable_share = 0.0;  ///< of the targets' area, by few samples
 };
 
+/// Where most is left of the targets, and what is proved of other tools there.
+struct LeastLeft {
+  std::string face;  ///< "F1"
+  Vec3 point = Vec3::Zero();
+  double left_mm = 0.0;
+  double radius_mm = 0.0;  ///< of tools that have no smaller radius,
+  double bound_mm = 0.0;   ///< every one leaves or cuts at least this much there: proved (docs/algorithms/bound.md)
+};
+
 /// On which side of targets that bound no material the tool belongs, and why (docs/algorithms/side.md).
 struct SheetSide {
   std::string faces;            ///< "F1" or "F1,F2": joined, with one side
@@ -290,6 +300,8 @@ struct VerifyReport {
   /// The largest ball, up to that one, that would reach the share of the whole that is asked for, where the path leaves more of it;
   /// not filled by judge()
   std::optional<FinerReach> finer_reach;
+  std::optional<LeastLeft>
+      least_left;  ///< asked under the same condition; none where nothing is proved; not filled by judge()
   std::optional<TurnFigure> turn;    ///< the sharpest; none where nobody asked; not filled by judge()
   std::optional<StockReport> stock;  ///< of a program with a blank; not filled by judge()
   /// None where nobody asked, or no load is known; not filled by judge()

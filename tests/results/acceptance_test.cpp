@@ -244,6 +244,14 @@ TEST(Acceptance, WhatIsLeftOfTheWholeFaceIsACautionAndOnDemandAReason) {
   EXPECT_EQ(cautions(open, Figure::kWholeCoverage)[0],
             "20.00 % of the face is not finished, up to 2.1 mm of excess material; a tool of radius 1.2 mm would reach "
             "96.0 %");
+  r.least_left = LeastLeft{"F1", Vec3(1, 2, 3), 2.1, 8.0, 0.9};
+  EXPECT_NE(cautions(accept(whole_tool(), r, asking(0.95)), Figure::kWholeCoverage)[0].find(
+                "; at (1.000, 2.000, 3.000) every tool with no radius below 8 mm leaves or cuts 0.9 mm or more"),
+            std::string::npos);
+  r.least_left->bound_mm = 0.5 * r.tolerance_mm;
+  EXPECT_EQ(cautions(accept(whole_tool(), r, asking(0.95)), Figure::kWholeCoverage)[0],
+            cautions(open, Figure::kWholeCoverage)[0])
+      << "such a tool may finish it";
   JudgeRequest whole = asking(0.95);
   whole.least_whole = 0.9;
   expect_one(accept(whole_tool(), r, whole), "coverage", "90.000 % of the whole face is required");

@@ -35,6 +35,7 @@ VerifyReport full_report() {
               4000,
               1.0 / 3.0,
               1e300,
+              Vec3(1.0 / 7.0, 3, 4),
               2e-7,
               0.1,
               0.97,
@@ -50,9 +51,28 @@ VerifyReport full_report() {
               Vec3(1.0 / 7.0, 5, 6),
               77,
               {}},
-             {"F2", false, 7.0,  12,   0.25,         0,   0,
-              0,    0,     0,    0,    0.0,          0.0, Vec3::Zero(),
-              0,    0.2,   0.01, 0.26, Vec3::Zero(), 9,   WorstPlace{"F2", Vec3(4, 5, 1.0 / 3.0), -0.25, 0, 1.5, 2.5}}};
+             {"F2",
+              false,
+              7.0,
+              12,
+              0.25,
+              0,
+              Vec3::Zero(),
+              0,
+              0,
+              0,
+              0,
+              0,
+              0.0,
+              0.0,
+              Vec3::Zero(),
+              0,
+              0.2,
+              0.01,
+              0.26,
+              Vec3::Zero(),
+              9,
+              WorstPlace{"F2", Vec3(4, 5, 1.0 / 3.0), -0.25, 0, 1.5, 2.5}}};
   r.worst = {{"F1", Vec3(1.0 / 7.0, 2, 3), -1.0 / 3.0, 2, 12.25, 7.5}, {"F2", Vec3(4, 5, 6), -0.25, -1, 0, 0}};
   r.histogram_edges_mm = {-0.02, 0.0, 0.02};
   r.histogram_area_mm2 = {100.5, 20.0};
@@ -71,6 +91,7 @@ VerifyReport full_report() {
                         .strip_deg = {59.5, 0.0},
                         .strip_mm3 = {55.0, 0.0},
                         .strip_mm = {100.0, 20.0}};
+  r.least_left = LeastLeft{"F1", Vec3(1.0 / 7.0, 3, 4), 2.5, 1.0 / 3.0, 0.1};
   r.bending = BendingReport{.overcut_mm = 0.01,
                             .undercut_mm = 0.02,
                             .bent_overcut_mm = 0.005,
@@ -101,6 +122,7 @@ TEST(VerifyJson, ReadsBackWhatItWrote) {
   EXPECT_FALSE(b.faces[1].target);
   EXPECT_EQ(b.faces[0].coverage_bound, 1.0 / 3.0);
   EXPECT_EQ(b.faces[0].coverage_reachable_bound, 0.875);
+  EXPECT_EQ(b.faces[0].undercut_point, Vec3(1.0 / 7.0, 3, 4));
   EXPECT_EQ(b.faces[0].uncovered_point, Vec3(1.0 / 7.0, 8, 9));
   EXPECT_EQ(b.faces[0].cover_cells, 55u);
   EXPECT_EQ(b.faces[1].sampling_bound_mm, 0.01);
@@ -134,6 +156,10 @@ TEST(VerifyJson, ReadsBackWhatItWrote) {
   EXPECT_EQ(b.stock->kinds[1].strip, -1);
   EXPECT_EQ(b.stock->cycles_deg(), 59.5);
   EXPECT_EQ(b.stock->strip_mm3, a.stock->strip_mm3);
+  ASSERT_TRUE(b.least_left);
+  EXPECT_EQ(b.least_left->point, Vec3(1.0 / 7.0, 3, 4));
+  EXPECT_EQ(b.least_left->radius_mm, 1.0 / 3.0);
+  EXPECT_EQ(b.least_left->bound_mm, 0.1);
   ASSERT_TRUE(b.bending);
   EXPECT_EQ(b.bending->bent_undercut_mm, 1.0 / 30.0);
   EXPECT_EQ(b.bending->most_point, a.bending->most_point);

@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include "flank/base/stopping.h"
-#include "flank/bound/ball_room.h"
 #include "flank/bound/bound_setup.h"
 #include "flank/error.h"
 #include "flank/io/text/json_dump.h"
 #include "flank/job/bound_fields.h"
+#include "flank/limit/ball_room.h"
 #include "flank/setup/radius_default.h"
 #include "flank/tool_request/tool_spec.h"
 
@@ -59,6 +59,8 @@ FreeBound run_free_bound(const BoundJob& request, const Progress& progress) {
   const BoundSetup setup = read_bound_setup(request, result.notes);
   result.part_sha256 = setup.setup.part.sha256;
   result.job.tolerance_mm = setup.setup.tolerance_mm;
+  std::vector<const Target*> surfaces = setup.avoided();
+  for (const TargetGroup& group : setup.groups) surfaces.push_back(group.target.get());
   const double share = 1.0 / static_cast<double>(setup.groups.size());
   for (std::size_t k = 0; k < setup.groups.size() && !progress.stop(); ++k) {
     const Target& target = *setup.groups[k].target;
@@ -68,7 +70,7 @@ FreeBound run_free_bound(const BoundJob& request, const Progress& progress) {
                                       .spacing_mm = std::sqrt(target.area() / request.points),
                                       .gap = request.gap};
     const Progress part = progress.part(share * static_cast<double>(k), share * static_cast<double>(k + 1));
-    const BallRoom room(setup, k, radius);
+    const BallRoom room(setup.setup, surfaces, setup.groups[k].indices, target.box(), radius);
     result.targets.push_back(
         {setup.groups[k].faces, target.diagonal(), radius, ball_bound(target, room.scene(), options, part)});
   }

@@ -128,6 +128,15 @@ std::string who_reaches(const VerifyReport& report) {
   return fmt::format("; a tool of radius {:.2g} mm would reach {:.1f} %", radius, 100.0 * share);
 }
 
+/// What is proved of the place where most is left: a tool that is no thinner does not finish it.
+std::string who_leaves(const VerifyReport& report) {
+  if (!report.least_left || report.least_left->bound_mm < report.tolerance_mm) return "";
+  const LeastLeft& left = *report.least_left;
+  return fmt::format(
+      "; at ({:.3f}, {:.3f}, {:.3f}) every tool with no radius below {:.3g} mm leaves or cuts {:.2g} mm or more",
+      left.point.x(), left.point.y(), left.point.z(), left.radius_mm, left.bound_mm);
+}
+
 /// The share of the whole face, whatever is reachable: a demand, or, where none was made, a caution if as much is left as of what is
 /// reachable may be.
 void add_whole(const VerifyReport& report, const JudgeRequest& request, Acceptance& out) {
@@ -142,8 +151,9 @@ void add_whole(const VerifyReport& report, const JudgeRequest& request, Acceptan
                     100.0 * report.coverage, 100.0 * *report.coverage_bound, 100.0 * wanted));
     return;
   }
-  const std::string text = fmt::format("{:.2f} % of the face is not finished, up to {:.2g} mm of excess material{}",
-                                       100.0 * (1.0 - report.coverage), report.undercut_mm, who_reaches(report));
+  const std::string text =
+      fmt::format("{:.2f} % of the face is not finished, up to {:.2g} mm of excess material{}{}",
+                  100.0 * (1.0 - report.coverage), report.undercut_mm, who_reaches(report), who_leaves(report));
   if (request.least_whole)
     add_reason(out, Figure::kWholeCoverage,
                fmt::format("{}; {:.3f} % of the whole face is required", text, 100.0 * wanted));

@@ -116,6 +116,7 @@ Json to_json(const FaceVerdict& f) {
             {"spacing_mm", number(f.spacing_mm)},
             {"overcut_mm", number(f.overcut_mm)},
             {"undercut_mm", number(f.undercut_mm)},
+            {"undercut_point", point(f.undercut_point)},
             {"undercut_covered_mm", number(f.undercut_covered_mm)},
             {"rms_mm", number(f.rms_mm)},
             {"coverage", number(f.coverage)},
@@ -143,6 +144,7 @@ FaceVerdict face_from(const Json& j) {
   f.spacing_mm = to_number(j.at("spacing_mm"));
   f.overcut_mm = to_number(j.at("overcut_mm"));
   f.undercut_mm = to_number(j.at("undercut_mm"));
+  if (j.contains("undercut_point")) f.undercut_point = to_point(j.at("undercut_point"));
   f.undercut_covered_mm = to_number(j.at("undercut_covered_mm"));
   f.rms_mm = to_number(j.at("rms_mm"));
   f.coverage = to_number(j.at("coverage"));
@@ -271,6 +273,11 @@ VerifyReport report_from(const Json& j) {
     r.hold.emplace().axis = clearance_from(hold.at("axis"));
     if (hold.contains("as_thick")) r.hold->as_thick = clearance_from(hold.at("as_thick"));
   }
+  if (j.contains("least_left")) {
+    const Json& left = j.at("least_left");
+    r.least_left = {left.at("face").get<std::string>(), to_point(left.at("point")), to_number(left.at("left_mm")),
+                    to_number(left.at("radius_mm")), to_number(left.at("bound_mm"))};
+  }
   if (j.contains("finer_reach"))
     r.finer_reach = {to_number(j.at("finer_reach").at("radius_mm")),
                      to_number(j.at("finer_reach").at("reachable_share"))};
@@ -353,6 +360,12 @@ std::string verify_to_json(const VerifyReport& r, const Acceptance& acceptance) 
   if (r.finer_reach)
     j["finer_reach"] = {{"radius_mm", number(r.finer_reach->radius_mm)},
                         {"reachable_share", number(r.finer_reach->reachable_share)}};
+  if (r.least_left)
+    j["least_left"] = {{"face", r.least_left->face},
+                       {"point", point(r.least_left->point)},
+                       {"left_mm", number(r.least_left->left_mm)},
+                       {"radius_mm", number(r.least_left->radius_mm)},
+                       {"bound_mm", number(r.least_left->bound_mm)}};
   if (r.turn)
     j["turn"] = {
         {"angle_deg", number(r.turn->angle_deg)}, {"strip", r.turn->strip + 1}, {"point", point(r.turn->point)}};

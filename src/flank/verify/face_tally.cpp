@@ -74,7 +74,9 @@ void FaceTally::add_sample(const FaceSamples& samples, std::size_t i, const Swep
   sums_.area += area;
   verdict_.overcut_mm = std::max(verdict_.overcut_mm, -d.f);
   if (!samples.target) return;
-  verdict_.undercut_mm = std::max(verdict_.undercut_mm, d.f < kNowhere ? d.f : kInfinity);
+  const double left = d.f < kNowhere ? d.f : kInfinity;
+  if (left > verdict_.undercut_mm) verdict_.undercut_point = samples.points[i];
+  verdict_.undercut_mm = std::max(verdict_.undercut_mm, left);
   const double reachable = samples.reachable.empty() ? area : area * samples.reachable[i];
   sums_.reachable += reachable;
   sums_.proved += area - open;

@@ -9,6 +9,7 @@
 
 #include "flank/base/stopping.h"
 #include "flank/error.h"
+#include "flank/limit/least_left.h"
 #include "flank/path/turning.h"
 #include "flank/pipeline/folder/find_buried.h"
 #include "flank/pipeline/folder/target_reach.h"
@@ -149,12 +150,6 @@ std::optional<TurnFigure> turn_of(const Tool& tool, const Path& path, const std:
                     path.strips[turn.strip].poses[turn.pose].tip};
 }
 
-/// A ball in the middle of the tool reaches that much less than the same of the tool that is judged.
-std::optional<FinerReach> without_allowance(const Setup& setup, FinerReach reach) {
-  reach.radius_mm = std::max(0.0, reach.radius_mm - setup.allowance_mm);
-  return reach;
-}
-
 /// Where the wanted face is. Of a sheet that is only checked nobody knows the side.
 void move_out(double allowance_mm, FaceSamples& face) {
   if (!(allowance_mm > 0.0) || !(face.target || face.of_solid) || face.normals.size() != face.points.size()) return;
@@ -216,9 +211,12 @@ VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const To
   report.allowance_mm = setup.allowance_mm;
   // What is left of the whole: which tool would reach it? Seldom asked: the samples are made again, not kept beside the judge's own.
   const double wanted = request.least_whole.value_or(request.least_coverage);
-  if (reach && report.coverage < wanted)
-    report.finer_reach =
-        without_allowance(setup, finer_reach(setup, *reach, target_samples(setup, kReachSpacings * usual), wanted));
+  if (reach && report.coverage < wanted) {
+    report.finer_reach = finer_reach(setup, *reach, target_samples(setup, kReachSpacings * usual), wanted);
+    // A ball in the middle of the tool reaches that much less than the same of the tool that is judged.
+    report.finer_reach->radius_mm = std::max(0.0, report.finer_reach->radius_mm - setup.allowance_mm);
+    report.least_left = least_left(setup, report);
+  }
   if (request.most_turn_deg > 0.0) report.turn = turn_of(tool, path, judged);
   report.buried = std::move(buried);
   report.sheet_sides = setup.sides;

@@ -3,16 +3,17 @@
 
 #include <vector>
 
-#include "flank/bound/bound_setup.h"
 #include "flank/limit/least_error.h"
+#include "flank/setup/setup.h"
 
 namespace flank::internal {
 
-/// Holds what a scene points to; the setup must live longer.
+/// Holds the solids that a scene points to.
 class BallRoom {
  public:
-  /// For balls of the radius at the faces of one group.
-  BallRoom(const BoundSetup& setup, std::size_t group, double radius_mm);
+  /// For balls of the radius near a box about some of the faces `own` of one solid, or of none. `faces` must not be cut, own ones among them.
+  BallRoom(const Setup& setup, std::vector<const Target*> faces, const std::vector<int>& own, const Box3& near,
+           double radius_mm);
   [[nodiscard]] const BallScene& scene() const { return scene_; }
 
  private:
