@@ -100,6 +100,24 @@ TEST(WheelRoles, TheHousingOfAnAssemblyIsNoPartOfTheWheel) {
   EXPECT_EQ(roles.debris.back(), "F193");
 }
 
+TEST(WheelRoles, TheBoreOfAHollowVaneIsNoSideOfIt) {
+  FLANK_REAL_PART(file, "zoo/turbo3d_compressor_export.step");
+  const WheelRoles roles = recognise_wheel(read_part(file));
+  EXPECT_EQ(roles.hub, Names{"F194"});
+  ASSERT_EQ(roles.mains(), 6);
+  for (const WheelBlade& blade : roles.blades) {
+    EXPECT_TRUE(blade.round());
+    EXPECT_EQ(blade.sides().size(), 1U);
+    EXPECT_TRUE(blade.edges.empty());
+    EXPECT_EQ(blade.tips.size(), 1U);
+    EXPECT_EQ(blade.buried.size(), 1U) << "the ring that it stands on the plate with";
+    // Its skin is 6 to 6.4 mm across.
+    EXPECT_NEAR(blade.thickness_mm, 6.2, 0.2);
+  }
+  EXPECT_EQ(roles.blades.front().ahead, Names{"F252"});
+  EXPECT_EQ(std::count(roles.rest.begin(), roles.rest.end(), "F251"), 1) << "its bore";
+}
+
 TEST(WheelRoles, RootFilletsHaveTheirRadius) {
   FLANK_REAL_PART(file, "wheels/impeller.step");
   const WheelRoles roles = recognise_wheel(read_part(file));

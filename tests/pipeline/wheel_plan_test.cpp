@@ -121,6 +121,23 @@ TEST_F(WheelPlanFile, ABladeThatThePartLacksStandsThereTurned) {
   EXPECT_LT((setup.standing[0].box().high - box.high).norm(), 1e-9);
 }
 
+TEST_F(WheelPlanFile, WhatIsLeftOutOfTheWheelIsACautionOfItsVerdict) {
+  std::string text = kPlan;
+  text.insert(text.find("\"operations\""), "\"left_out\": [\"F1\", \"F2\"], ");
+  write_plan(text);
+  const WheelPlan plan = read_wheel_plan(root_.string()).value();
+  EXPECT_EQ(plan.left_out, (std::vector<std::string>{"F1", "F2"}));
+  WheelPlan alone;
+  for (const bool housing : {false, true}) {
+    if (housing) alone.left_out = plan.left_out;
+    Acceptance acceptance;
+    accept_steps(alone, std::nullopt, acceptance);
+    EXPECT_TRUE(acceptance.pass());
+    ASSERT_EQ(acceptance.cautions.size(), housing ? 1U : 0U);
+    if (housing) EXPECT_NE(acceptance.cautions.front().text.find("F1,F2: nothing was checked"), std::string::npos);
+  }
+}
+
 TEST(JudgedRoughing, AnEngagementAboveTheLimitIsAReason) {
   JudgedRoughing roughing;
   roughing.tool.radial = RadialFunction(ToolFamily::kCylinder, 12.0, Eigen::VectorXd::Constant(1, 2.0));

@@ -69,6 +69,31 @@ TEST(WheelSector, AHubLooksTheWayThatItsNormalsSay) {
   EXPECT_EQ(hub_looks_along(roles, faces), 0.0);
 }
 
+TEST(WheelSector, AFloorThatLeansIsMachinedFromWhereItLooks) {
+  WheelAxis axis;
+  axis.direction = Vec3::UnitZ();
+  // Sides of a radial wheel: nearly across its axis.
+  const std::vector<Strip> strips{
+      {.id = 1, .kind = "flank", .face = "F1", .poses = {{Vec3::Zero(), Vec3(1.0, 0.0, -0.1).normalized()}}},
+      {.id = 2, .kind = "floor", .face = "F2", .poses = {{Vec3::Zero(), Vec3::UnitZ()}}}};
+  EXPECT_TRUE(is_machined_from_ahead(0.8, strips, axis));
+  EXPECT_FALSE(is_machined_from_ahead(-0.8, {}, axis));
+  EXPECT_FALSE(is_machined_from_ahead(0.1, strips, axis));
+  EXPECT_TRUE(is_machined_from_ahead(-0.1, {}, axis));
+}
+
+TEST(WheelSector, ABladeOfOneFaceAllRoundHasItOnBothOfItsSides) {
+  WheelRoles roles = three_mains();
+  for (WheelBlade& one : roles.blades) one.behind = one.ahead;
+  ASSERT_TRUE(roles.blades.front().round());
+  const WheelSector sector = make_sector(roles);
+  EXPECT_EQ(sector.sides(), Names{"F1"});
+  ASSERT_EQ(sector.channels.size(), 1U);
+  EXPECT_EQ(sector.channels[0].first, Names{"F1"});
+  EXPECT_EQ(sector.channels[0].second, Names{"F3"});
+  EXPECT_EQ(sector.channels[0].second_path, Names{"F1"});
+}
+
 TEST(WheelSector, OneBladeAloneHasNoChannel) {
   WheelRoles roles = three_mains();
   roles.blades.resize(1);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "flank/feature/hollow.h"
+
 namespace flank::internal {
 namespace {
 
@@ -56,6 +58,13 @@ bool is_sector_cut(const WheelFace& face, const WheelAxis& axis, double size_mm)
 
 }  // namespace
 
+void leave_out_hollows(BladeFaces& blade, double near_mm) {
+  for (const WheelFace* face : hollow_faces(blade.faces, near_mm))
+    blade.faces.erase(std::remove(blade.faces.begin(), blade.faces.end(), face), blade.faces.end());
+  blade.area = 0.0;
+  for (const WheelFace* face : blade.faces) blade.area += face->area;
+}
+
 std::vector<BladeFaces> blade_candidates(const std::vector<WheelFace>& faces, const WheelAxis& axis, double size_mm) {
   const double near_mm = touch_mm(size_mm);
   std::vector<const WheelFace*> free, turned;
@@ -84,7 +93,8 @@ std::vector<BladeFaces> blade_candidates(const std::vector<WheelFace>& faces, co
   for (std::size_t g = 0; g < all.size(); ++g) {
     BladeFaces blade;
     for (std::size_t i = 0; i < all.size(); ++i)
-      if (groups.of[i] == g) blade.faces.push_back(all[i]), blade.area += all[i]->area;
+      if (groups.of[i] == g) blade.faces.push_back(all[i]);
+    leave_out_hollows(blade, near_mm);
     if (blade.faces.empty()) continue;
     const double ahead = area_looking(blade, axis, 1.0), behind = area_looking(blade, axis, -1.0);
     if (std::min(ahead, behind) > kOneWay * blade.area) out.push_back(std::move(blade));

@@ -13,6 +13,9 @@ struct BladeFaces {
   double area = 0.0;
 };
 
+/// Bores and other hollows of a blade are none of its faces.
+void leave_out_hollows(BladeFaces& blade, double near_mm);
+
 /// Of all faces; what could be a blade has sides that look both ways round the axis. Largest first.
 [[nodiscard]] std::vector<BladeFaces> blade_candidates(const std::vector<WheelFace>& faces, const WheelAxis& axis,
                                                        double size_mm);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "flank/feature/hollow.h"
+
 namespace flank::internal {
 namespace {
 
@@ -14,6 +16,8 @@ constexpr double kOffHub = 0.08,
 constexpr double kRoot = 0.3;     ///< of the blade's height: fillets end below
 constexpr double kConcave = 0.5;  ///< share of a fillet's samples that bend towards the tool
 constexpr int kAtHub = 3;
+constexpr double kFacesHub = -0.9;  ///< mean cosine between the normals of a foot and the hub's
+constexpr double kEitherWay = 0.2;  ///< of its area, that a side which goes all round has looking either way
 
 /// A face by its place over the hub.
 struct Placed {
@@ -21,8 +25,11 @@ struct Placed {
   double low = 0.0, high = 0.0;  ///< heights of a twentieth and nineteen twentieths of its area
   double up = 0.0;               ///< mean cosine of its normals to the way up
   double ahead = 0.0;            ///< mean of its normals' share round the axis
+  double least_way = 0.0;        ///< share of the area that looks the way round the axis that less of it does
+  double facing = 0.0;           ///< mean cosine between its normals and the hub's
   double concave = 0.0;          ///< share that bends towards the tool, with a radius below the blade's height
   double above = 0.0;            ///< share of the area over the hub
+  Closing closing = Closing::kOpen;
   bool at_hub = false;
 };
 
@@ -36,15 +43,21 @@ double quantile(std::vector<double> values, double share) {
 Placed place(const WheelFace& face, const std::vector<const WheelFace*>& hub, const WheelAxis& axis, double near_mm) {
   Placed out{&face};
   std::vector<double> heights;
+  double one_way = 0.0, other_way = 0.0;
   for (const FaceSample& s : face.samples) {
     const NearFace at = nearest(hub, s.point);
     heights.push_back(at.height);
     const Vec3 to = s.point - at.point;
     const Vec3 up = to.norm() > near_mm ? Vec3(std::copysign(1.0, at.height) * to.normalized()) : at.normal;
     out.up += s.area * s.normal.dot(up) / face.area;
-    out.ahead += s.area * s.normal.dot(axis.around(s.point)) / face.area;
+    const double ahead = s.normal.dot(axis.around(s.point));
+    out.ahead += s.area * ahead / face.area;
+    (ahead > 0.0 ? one_way : other_way) += s.area / face.area;
+    out.facing += s.area * s.normal.dot(at.normal) / face.area;
     out.above += at.height > -near_mm ? s.area / face.area : 0.0;
   }
+  out.least_way = std::min(one_way, other_way);
+  if (out.least_way > kEitherWay) out.closing = closing({&face}, near_mm);
   out.low = quantile(heights, 0.05), out.high = quantile(heights, 0.95);
   out.at_hub = std::any_of(hub.begin(), hub.end(), [&](const WheelFace* below) {
     return contact(face, *below, near_mm).points >= kAtHub || contact(*below, face, near_mm).points >= kAtHub;
@@ -67,8 +80,10 @@ RootFillet fillet_of(const WheelFace& face) {
 }
 
 /// Of places in the middle of a side, how far the other side is: the median.
-double thickness_of(const std::vector<const WheelFace*>& one, const std::vector<const WheelFace*>& other) {
+double thickness_of(const std::vector<const WheelFace*>& one, const std::vector<const WheelFace*>& other,
+                    double near_mm) {
   std::vector<double> found;
+  if (one == other) return girth(one, Girth::kOfMaterial, near_mm);
   if (one.empty() || other.empty()) return 0.0;
   for (const WheelFace* face : one)
     for (std::size_t k = 0; k < face->samples.size(); k += 7)
@@ -93,8 +108,12 @@ void add_role(const Placed& p, bool wide, WheelBlade& out) {
   const std::string& id = p.face->id;
   const double height = out.height_mm;
   const bool root = p.high < kRoot * height, whole = id == whole_id(*p.face);
-  if (p.above < 0.05) {
+  // What stands on the hub without a joint lies on it with its foot.
+  const bool foot = p.at_hub && p.facing < kFacesHub && p.high < kOffHub * height;
+  if (p.above < 0.05 || foot) {
     out.buried.push_back(id);
+  } else if (wide && p.closing == Closing::kRound) {
+    out.ahead.push_back(id), out.behind.push_back(id);
   } else if (wide && !(p.at_hub && root)) {
     (p.ahead > 0.0 ? out.ahead : out.behind).push_back(id);
   } else if (const RootFillet fillet = fillet_of(*p.face); root && (p.at_hub || p.concave > kConcave) &&
@@ -147,7 +166,7 @@ WheelBlade blade_roles(const BladeFaces& blade, const std::vector<const WheelFac
     if (!out.behind.empty() && out.behind.back() == p.face->id && wide) behind.push_back(p.face);
   }
   join_pieces(blade, out.edges);
-  out.thickness_mm = thickness_of(ahead, behind);
+  out.thickness_mm = thickness_of(ahead, behind, touch_mm(size_mm));
   return out;
 }
 

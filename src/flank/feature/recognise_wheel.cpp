@@ -124,12 +124,12 @@ struct Found {
   std::vector<bool> splitter;
 };
 
-Found blades_given(const Part& part, const std::vector<WheelFace>& faces, const WheelChoice& choice) {
+Found blades_given(const Part& part, const std::vector<WheelFace>& faces, const WheelChoice& choice, double size_mm) {
   Found out;
   for (const auto* lists : {&choice.blades, &choice.splitters})
     for (const std::string& list : *lists) {
       BladeFaces blade{faces_named(part, faces, list), 0.0};
-      for (const WheelFace* face : blade.faces) blade.area += face->area;
+      leave_out_hollows(blade, touch_mm(size_mm));
       if (blade.faces.empty()) throw UsageError("blade", list, "none of these faces could be read");
       out.blades.push_back(std::move(blade));
       out.splitter.push_back(lists == &choice.splitters);
@@ -233,7 +233,7 @@ WheelRoles recognise_wheel(const Part& part, const WheelChoice& choice) {
   if (!axis) refuse(part, "no axis found: the part has no surface of revolution");
   out.axis = *axis;
   const Found found = choice.blades.empty() ? blades_found(part, blade_candidates(faces, *axis, size), *axis, size)
-                                            : blades_given(part, faces, choice);
+                                            : blades_given(part, faces, choice, size);
   TurnedRoles turned;
   if (choice.hub)
     turned.hub = faces_named(part, faces, *choice.hub);

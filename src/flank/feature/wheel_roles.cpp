@@ -6,7 +6,7 @@ namespace flank::internal {
 
 std::vector<std::string> WheelBlade::sides() const {
   std::vector<std::string> out = ahead;
-  out.insert(out.end(), behind.begin(), behind.end());
+  if (!round()) out.insert(out.end(), behind.begin(), behind.end());
   return out;
 }
 

@@ -33,6 +33,8 @@ struct WheelBlade {
   std::vector<RootFillet> fillets;
   std::vector<std::string> buried;  ///< inside the hub's material, or below it
 
+  /// One face goes all round the blade, and is both of its sides.
+  [[nodiscard]] bool round() const { return !ahead.empty() && ahead == behind; }
   [[nodiscard]] std::vector<std::string> sides() const;
   /// Sides, edges and fillets: what is flow surface of a blade.
   [[nodiscard]] std::vector<std::string> flow() const;

@@ -26,6 +26,10 @@ Names with_fillets(const WheelWork& work, const Names& side, FaceTargets& target
   for (const WheelBlade& blade : work.roles.blades) {
     const bool ahead = blade.ahead == side;
     if (!ahead && blade.behind != side) continue;
+    if (blade.round()) {
+      for (const RootFillet& fillet : blade.fillets) out.push_back(fillet.face);
+      continue;
+    }
     const std::vector<const Target*> own = targets.of(side), other = targets.of(ahead ? blade.behind : blade.ahead);
     for (const RootFillet& fillet : blade.fillets) {
       const Target* face = targets.of({fillet.face}).front();

@@ -127,12 +127,14 @@ struct SideToFit {
 /// the whole channel before it.
 std::vector<SideToFit> sides_to_fit(const WheelWork& work) {
   std::vector<SideToFit> out;
+  std::size_t first_behind = 0;
   for (const WheelBlade& blade : work.sector.blades) {
     out.push_back({blade.ahead, blade.ahead});
-    out.push_back({blade.behind, blade.behind});
+    if (!blade.round()) out.push_back({blade.behind, blade.behind});
+    if (&blade == &work.sector.blades.front()) first_behind = out.size() - 1;
   }
   const SectorChannel& last = work.sector.channels.back();
-  if (!work.roles.whole) out[1] = {last.second_path, last.second, -work.sector.pitch_rad};
+  if (!work.roles.whole) out[first_behind] = {last.second_path, last.second, -work.sector.pitch_rad};
   return out;
 }
 
@@ -180,6 +182,7 @@ void carry_over(WheelWork& work, const Path& path, const WheelSector& to, double
   for (std::size_t b = 0; b < std::min(to.blades.size(), work.sector.blades.size()); ++b) {
     const WheelBlade &own = work.sector.blades[b], &other = to.blades[b];
     for (const bool ahead : {true, false}) {
+      if (!ahead && own.round()) continue;
       const Names &from = ahead ? own.ahead : own.behind, &onto = ahead ? other.ahead : other.behind;
       for (const Strip& strip : strips_of(path, from)) {
         out.strips.push_back(carried_over(strip, work.tool->radial, work.targets.of(from), work.targets.of(onto),

@@ -181,6 +181,7 @@ std::string plan_json(const WheelResult& result) {
   json["most_engagement_deg"] = result.most_engagement_deg;
   if (!result.blank.empty()) json["blank"] = {{"file", "blank.stl"}, {"from", result.blank}};
   if (!result.lacking.empty()) json["lacking"] = lacking_json(result.lacking);
+  if (!result.roles.debris.empty()) json["left_out"] = result.roles.debris;
   json["tools"] = tools_json(result);
   json["operations"] = nlohmann::ordered_json::array();
   for (const WheelOperation& operation : result.operations)

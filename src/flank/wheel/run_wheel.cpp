@@ -117,11 +117,13 @@ WheelResult run_wheel(const WheelRequest& job, const Progress& progress) {
   result.copies = work.copies(), result.up = work.up(), result.notes = work.notes;
   run(floor_operation(work, progress.part(0.4, 0.5)));
   progress.step("edges", 0.5);
-  const bool fillets = std::any_of(sector.blades.begin(), sector.blades.end(),
-                                   [](const WheelBlade& blade) { return !blade.fillets.empty(); });
+  const auto has = [&](const auto& some) { return std::any_of(sector.blades.begin(), sector.blades.end(), some); };
+  const bool fillets = has([](const WheelBlade&blade) { return !blade.fillets.empty(); }),
+             edges = has([](const WheelBlade&blade) { return !blade.edges.empty(); });
   if (fillets)
     if (std::optional<WheelOperation> operation = fillet_operation(work)) run(std::move(*operation));
-  if (job.edges) run(edge_operation(work));
+  // A round vane has none.
+  if (job.edges && edges) run(edge_operation(work));
   if (std::optional<WheelOperation> operation = rest_operation(work)) run(std::move(*operation));
   progress.step("rough", 0.6);
   if (job.rough) run(rough_operation(work));

@@ -131,6 +131,17 @@ double hub_looks_along(const WheelRoles& roles, const std::vector<WheelFace>& fa
   return area > 0.0 ? sum / area : 0.0;
 }
 
+bool is_machined_from_ahead(double hub_looks, const std::vector<Strip>& strips, const WheelAxis& axis) {
+  constexpr double kLeans = 0.3;
+  if (std::abs(hub_looks) > kLeans) return hub_looks > 0.0;
+  double along = 0.0;
+  for (const Strip& strip : strips) {
+    if (strip.kind != "flank") continue;
+    for (const Pose& pose : strip.poses) along += pose.axis.dot(axis.direction);
+  }
+  return along >= 0.0;
+}
+
 double sectors_of_hub(const WheelRoles& roles, const std::vector<WheelFace>& faces) {
   std::vector<double> angles;
   for (const WheelFace& face : faces) {

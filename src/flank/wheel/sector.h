@@ -32,6 +32,11 @@ struct WheelSector {
 /// Mean of the hub's normals along the axis, -1 to 1: of faces of solids, as nobody knows the side of others; 0: nothing is known.
 [[nodiscard]] double hub_looks_along(const WheelRoles& roles, const std::vector<WheelFace>& faces);
 
+/// Whether a wheel is machined from the end that its axis points to. A floor that leans (hub_looks_along()) is machined from where it looks to,
+/// and so are the edges over it. Passes of the sides tell where it does not: those of a radial wheel lie across its axis, and a few degrees
+/// would turn the wheel over.
+[[nodiscard]] bool is_machined_from_ahead(double hub_looks, const std::vector<Strip>& strips, const WheelAxis& axis);
+
 /// The first main blade with another one a pitch on, or itself where the wheel is one sector, and what stands between them. Throws InputError where no two main blades
 /// are there.
 [[nodiscard]] WheelSector make_sector(const WheelRoles& roles);

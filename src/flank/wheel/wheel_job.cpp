@@ -6,6 +6,7 @@ Acceptance WheelResult::acceptance() const {
   Acceptance out;
   if (whole) out = whole->acceptance();
   WheelPlan plan;
+  plan.left_out = roles.debris;
   for (const WheelOperation& o : operations)
     plan.steps.push_back({.id = o.id, .kind = o.kind, .folder = o.folder, .done = o.done, .problem = o.problem});
   accept_steps(plan, roughing, out);

@@ -159,16 +159,8 @@ Names wall_faces(const WheelRoles& roles) {
 }
 
 Vec3 WheelWork::up() const {
-  constexpr double kFlat = 0.9;
-  double along = hub_looks_along(roles, faces);
-  // A flat floor is machined from the side that it looks to, whatever the fits of the sides took.
-  const bool flat = std::abs(along) > kFlat;
-  if (!flat) along = 0.0;
-  for (const Strip& strip : finish.strips) {
-    if (flat || strip.kind != "flank") continue;
-    for (const Pose& pose : strip.poses) along += pose.axis.dot(roles.axis.direction);
-  }
-  return along < 0.0 ? Vec3(-roles.axis.direction) : roles.axis.direction;
+  const bool ahead = is_machined_from_ahead(hub_looks_along(roles, faces), finish.strips, roles.axis);
+  return ahead ? roles.axis.direction : Vec3(-roles.axis.direction);
 }
 
 PointOptions WheelWork::point_options() {

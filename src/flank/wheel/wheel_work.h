@@ -72,7 +72,7 @@ struct WheelWork {
   [[nodiscard]] std::vector<const Target*> walls();
   /// What floor() and walls() have more than the part.
   [[nodiscard]] std::vector<const Target*> missing();
-  /// Unit vector along the wheel's axis: the end that a flat floor looks to, else that from which most of the sides' poses come. With it to
+  /// Unit vector along the wheel's axis: the end that a floor looks to which leans, else that from which most of the sides' poses come. With it to
   /// the spindle the wheel is clamped.
   [[nodiscard]] Vec3 up() const;
   /// What passes of any operation are planned with: tolerance, and turns within the length in which the judge looks for them (and a little

@@ -1,7 +1,9 @@
 #include "flank/pipeline/folder/judge_roughing.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "flank/io/mesh/read_stl.h"
@@ -16,6 +18,14 @@ namespace flank::internal {
 namespace {
 
 constexpr double kSlotDeg = 180.0;  ///< engagement in a slot
+
+/// The first few of them, and how many more there are.
+std::string some_of(const std::vector<std::string>& faces) {
+  constexpr std::size_t kShown = 6;
+  const auto last = faces.begin() + static_cast<std::ptrdiff_t>(std::min(kShown, faces.size()));
+  const std::string text = fmt::format("{}", fmt::join(faces.begin(), last, ","));
+  return faces.size() > kShown ? fmt::format("{} and {} more", text, faces.size() - kShown) : text;
+}
 
 }  // namespace
 
@@ -59,6 +69,11 @@ void accept_steps(const WheelPlan& plan, const std::optional<JudgedRoughing>& ro
     if (!step.done)
       add_reason(acceptance, Figure::kComplete,
                  fmt::format("operation {} ({}) has no result: {}", step.id, step.kind, step.problem));
+  if (!plan.left_out.empty())
+    add_caution(acceptance, Figure::kClearance,
+                fmt::format("solids that are no part of the wheel were left out, faces {}: nothing was checked against "
+                            "them, so they must not be there while it is machined",
+                            some_of(plan.left_out)));
   if (!roughing) return;
   JudgeRequest request;
   request.least_coverage = 0.0;

@@ -100,6 +100,10 @@ std::optional<WheelPlan> read_wheel_plan(const std::string& folder) {
     const JsonInput lacking = json.member("lacking");
     for (std::size_t k = 0; k < lacking.size(); ++k) plan.lacking.push_back(lacking_of(lacking.element(k)));
   }
+  if (json.has("left_out")) {
+    const JsonInput left_out = json.member("left_out");
+    for (std::size_t k = 0; k < left_out.size(); ++k) plan.left_out.push_back(left_out.element(k).text());
+  }
   const JsonInput steps = json.member("operations");
   for (std::size_t k = 0; k < steps.size(); ++k)
     plan.steps.push_back(step_of(folder, steps.element(k), raw.at("operations").at(k)));

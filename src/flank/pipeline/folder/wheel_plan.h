@@ -33,6 +33,7 @@ struct WheelPlan {
   std::string blank;                                ///< file of the blank, beside the working folder; empty: none
   double most_engagement_deg = 180.0;               ///< while roughing; 180: slots are allowed
   std::vector<LackingBlade> lacking;                ///< of a piece of a wheel
+  std::vector<std::string> left_out;                ///< faces of solids that are no part of the wheel
   std::vector<WheelStep> steps;                     ///< in the order of machining
   [[nodiscard]] const WheelStep* roughing() const;  ///< that is done; null: none
 };

@@ -49,8 +49,8 @@ class LongLine {
 
 ChannelLines::ChannelLines(const FloorChannel& channel)
     : map(channel.floor, channel.axis),
-      first(channel.first, channel.floor, map),
-      second(channel.second, channel.floor, map) {
+      first(channel.first, channel.floor, map, 1.0),
+      second(channel.second, channel.floor, map, -1.0) {
   if (!known()) return;
   const double middle = 0.5 * (std::max(first.from(), second.from()) + std::min(first.to(), second.to()));
   const double whole = 2.0 * std::numbers::pi;

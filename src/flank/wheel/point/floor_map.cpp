@@ -88,10 +88,14 @@ Vec3 FloorMap::place(double way, double angle) const {
   return axis_.turn(angle) * Vec3(axis_.point + q.x() * axis_.direction + q.y() * out_);
 }
 
-SideLine::SideLine(const std::vector<const Target*>& side, const std::vector<const Target*>& floor,
-                   const FloorMap& map) {
+SideLine::SideLine(const std::vector<const Target*>& side, const std::vector<const Target*>& floor, const FloorMap& map,
+                   double looks) {
   struct Low {
+    bool away;
     double height, way, angle;
+    [[nodiscard]] bool is_before(const Low& other) const {
+      return away != other.away ? other.away : height < other.height;
+    }
   };
   std::map<int, Low> cells;
   for (const Target* target : side)
@@ -104,9 +108,9 @@ SideLine::SideLine(const std::vector<const Target*>& side, const std::vector<con
       // A floor that ends where a leaning side begins has its border there.
       if (foot.patch < 0) continue;
       const double way = map.way(foot.point);
-      const Low low{std::abs(foot.distance), way, map.angle(s.point)};
+      const Low low{looks * map.ahead(s.point, s.normal) < 0.0, std::abs(foot.distance), way, map.angle(s.point)};
       const auto [cell, fresh] = cells.try_emplace(static_cast<int>(std::floor(way / kSideCellMm)), low);
-      if (!fresh && low.height < cell->second.height) cell->second = low;
+      if (!fresh && low.is_before(cell->second)) cell->second = low;
     }
   for (const auto& [key, low] : cells) {
     double angle = low.angle;

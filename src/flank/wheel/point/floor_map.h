@@ -18,6 +18,8 @@ class FloorMap {
   [[nodiscard]] double way(const Vec3& p) const;
   /// Radians about the axis, from -pi to pi.
   [[nodiscard]] double angle(const Vec3& p) const { return axis_.angle(p) - zero_; }
+  /// How far a direction at a place leads the way of a right-handed turn: -1 to 1.
+  [[nodiscard]] double ahead(const Vec3& p, const Vec3& direction) const { return direction.dot(axis_.around(p)); }
   [[nodiscard]] double radius(double way) const { return meridian(way).y(); }  ///< mm
   /// On the meridian's chords; the floor itself is beside it.
   [[nodiscard]] Vec3 place(double way, double angle) const;
@@ -34,7 +36,10 @@ class FloorMap {
 /// Where a side stands on the floor: its angle over the way. Beyond its ends it is not known.
 class SideLine {
  public:
-  SideLine(const std::vector<const Target*>& side, const std::vector<const Target*>& floor, const FloorMap& map);
+  /// `looks`: 1 for a side that bounds the channel which a right-handed turn comes to next, -1 for the one before. Of a face that goes all
+  /// round a blade the places count that look into the channel.
+  SideLine(const std::vector<const Target*>& side, const std::vector<const Target*>& floor, const FloorMap& map,
+           double looks);
   [[nodiscard]] bool empty() const { return ways_.size() < 2; }
   [[nodiscard]] double from() const { return ways_.front(); }
   [[nodiscard]] double to() const { return ways_.back(); }
