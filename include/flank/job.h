@@ -167,6 +167,7 @@ struct TrochoidJob {
   ObstacleRequest obstacles;
   JudgeRequest judge{.sample_mm = {}, .reach_radius_mm = {}, .most_turn_deg = 0.0};
   std::optional<double> tolerance_mm;  ///< none: a thousandth of the diagonal of both sides, rounded down to 1, 2 or 5
+  std::string effort = "normal";       ///< or "quick", "thorough": after how much work the search ends
   bool avoid = true;                   ///< keep clear of the other faces already in planning
   bool operator==(const TrochoidJob&) const = default;
 };

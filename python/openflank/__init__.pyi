@@ -1089,6 +1089,7 @@ def trochoid(
     tolerance_mm: float | None = None,
     allowance_mm: float | None = None,
     axis_length_mm: float | None = None,
+    effort: str = 'normal',
     max_engagement: float = 60.0,
     cut: str = 'climb',
     layers: Union[int, Literal["auto"]] = 'auto',
@@ -1145,6 +1146,9 @@ def trochoid(
     axis_length_mm
         Length of the tool's axis, tip centre to upper end. Default: as a layer needs [mm] (expected a
         length > 0 mm).
+    effort
+        How long to search: quick ends after about 20 s of one processor, normal after about 90 s, with
+        the best so far; thorough has no limit (must be quick, normal or thorough).
     max_engagement
         Largest engagement angle of the cutter, degrees (expected an angle above 5 and up to 180
         degrees).

@@ -72,13 +72,13 @@ void add_members(const NcRequest& request, Addresses& all) {
   add(all, file, machine, setup, tool, faces, offset, number, follow);
 }
 Addresses members(const TrochoidJob& job) {
-  const auto& [part, left, right, floor, tool, radius, cycles, obstacles, judge, tolerance, avoid] = job;
+  const auto& [part, left, right, floor, tool, radius, cycles, obstacles, judge, tolerance, effort, avoid] = job;
   const auto& [file, unit, faces, skin, side, facing, allowance] = part;
   const auto& [engagement, cut, layers, entry, ramp, strategy, feed, rapid, cell] = cycles;
   Addresses all;
   add_members(tool, all), add_members(radius, all), add_members(obstacles, all), add_members(judge, all);
   add(all, file, left, right, floor, engagement, cut, layers, entry, ramp, strategy, feed, rapid, cell, tolerance,
-      avoid, allowance);
+      effort, avoid, allowance);
   return all;
 }
 Addresses members(const PostJob& job) {

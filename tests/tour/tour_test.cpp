@@ -126,6 +126,13 @@ TEST(Tour, ThatIsEasedTouchesAllTheTimeAndTurnsWithoutAJump) {
     return sharpest_turn(poses, tour.tool.axis_length(), kWindow).angle_rad;
   };
   EXPECT_LT(sharpest(*eased), 0.6 * sharpest(*plain));
+  // What lies below the walls is not entered by lines that lean.
+  const auto lowest_tip = [](const Tour& tour) {
+    double lowest = 1e300;
+    for (int k = 0; k <= 3000; ++k) lowest = std::min(lowest, tour.motions[0].pose(k / 3000.0).tip.z());
+    return lowest;
+  };
+  EXPECT_GT(lowest_tip(*eased), lowest_tip(*plain) - 1e-4);
   EXPECT_LT(turning_of(eased->motions[0]).most_tilt, 10.5);
 }
 

@@ -62,6 +62,11 @@ void visit_fields(Job& job, Visitor&& visit) {
   visit(FieldInfo{"axis_length", "mm", "",
                   "Length of the tool's axis, tip centre to upper end. Default: as a layer needs", kLength},
         job.tool.axis_length_mm);
+  visit(FieldInfo{"effort", "", "",
+                  "How long to search: quick ends after about 20 s of one processor, normal after about 90 s, with the "
+                  "best so far; thorough has no limit",
+                  kEffort},
+        job.effort);
   visit_cycles(job.cycles, visit);
   visit_radius(job.radius, visit);
   visit_judge(job.judge, visit);

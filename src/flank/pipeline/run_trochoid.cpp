@@ -9,6 +9,7 @@
 
 #include "flank/base/stopping.h"
 #include "flank/base/tolerance_budget.h"
+#include "flank/base/work_count.h"
 #include "flank/error.h"
 #include "flank/job/check_fields.h"
 #include "flank/pipeline/cavity/cavity_faces.h"
@@ -212,8 +213,14 @@ void take(const CavityPlan& plan, const TrochoidJob& job, const ToolSpec& spec, 
   if (plan.program.layers.empty() && legitimacy.legitimate) note_no_cycles(job, fit.after, result.notes);
 }
 
-/// A shank that is to be chosen is that of the path found.
-Result plan_trochoid(const TrochoidJob& request, KnownShank known, const Progress& asked) {
+/// How much a search does (base/work_count.h), by the word of the job.
+double most_looks_of(const TrochoidJob& job) {
+  constexpr double kNormal = 2e8, kQuick = 2e7, kNoLimit = 1e300;
+  return job.effort == "quick" ? kQuick : job.effort == "thorough" ? kNoLimit : kNormal;
+}
+
+/// A shank that is to be chosen is that of the path found. The search ends after so many looks, with its best so far.
+Result plan_trochoid(const TrochoidJob& request, KnownShank known, double most_looks, const Progress& asked) {
   const bool shank_in_the_way = known == KnownShank::kInTheWay;
   const Progress progress = with_journal(asked);
   check_job(request);
@@ -245,9 +252,10 @@ Result plan_trochoid(const TrochoidJob& request, KnownShank known, const Progres
   PlanJudge judge(
       setup, scene, job,
       [&](const CavityPlan& plan, Result& out) { take(plan, job, spec, faces, scene, setup.part.box, out); }, watch);
+  const Progress searching = limited(progress, most_looks);
   const CavityPlan plan = search_cavity(
       job, faces, make_tool_model(spec, job.tool.axis_length_mm), options,
-      [&](const CavityPlan& tried) { return judge.find(tried); }, progress);
+      [&](const CavityPlan& tried) { return judge.find(tried); }, searching);
   if (plan.sides.fit.motions.empty()) stop_here();
   if (plan.sides.fit.motions.empty())
     throw InputError(
@@ -256,6 +264,9 @@ Result plan_trochoid(const TrochoidJob& request, KnownShank known, const Progres
   take(plan, job, spec, faces, scene, setup.part.box, result);
   watch.lap("cycles");
   result.complete = !progress.stop();
+  if (result.complete && searching.stop())
+    result.notes.push_back(
+        "the search reached its limit of work; this is the best found. `--effort thorough` has no limit");
 
   progress.step("verify", 0.9);
   judge.finish(plan, result);
@@ -272,7 +283,12 @@ Result plan_trochoid(const TrochoidJob& request, KnownShank known, const Progres
 }  // namespace
 
 Result run_trochoid(const TrochoidJob& request, const Progress& asked) {
-  return with_room_for_shank<TrochoidJob>(request, false, kAnySlenderness, plan_trochoid, asked);
+  // Another search with the shank in the way has what the first one left.
+  const auto plan = [&, before = work_done()](const TrochoidJob& job, KnownShank known, const Progress& progress) {
+    const double left = most_looks_of(job) - static_cast<double>(work_done() - before);
+    return plan_trochoid(job, known, left, progress);
+  };
+  return with_room_for_shank<TrochoidJob>(request, false, kAnySlenderness, plan, asked);
 }
 
 }  // namespace flank

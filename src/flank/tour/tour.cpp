@@ -144,7 +144,7 @@ double spread_at(const Wall& wall, bool last, const StraightFlank& flank, double
 }
 
 /// Beside a smooth joint: the lines of a plane lean over a way of `ease` mm, so that both ends of the axis come to it as fast as they go
-/// on. The flank stays on the plane; without it the tool begins to turn at once.
+/// on. The flank stays on the plane, and the tip at its height; without it the tool begins to turn at once.
 struct Ease {
   double way_mm = 0.0, spread = 0.0;
   /// By how much the head is ahead of the foot, mm, at this distance before the joint.
@@ -178,9 +178,11 @@ void add_eased(const WallLine& a, const WallLine& b, const Ease& begin, const Ea
       const double at = from + share * (to - from);
       WallLine line = wall->between(a, b, at);
       const double ahead = end.ahead((1.0 - at) * way) - begin.ahead(at * way);
+      const Vec3 upright = line.direction();
       line.foot -= 0.5 * ahead * x;
       line.head += 0.5 * ahead * x;
-      return laid_against(line, flank, s);
+      // As far up the plane as before: along the line that leans the tip would sink into what lies below.
+      return laid_against(line, flank, s / upright.dot(line.direction()));
     });
 }
 

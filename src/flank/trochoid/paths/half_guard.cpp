@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "flank/base/work_count.h"
+
 namespace flank::internal {
 
 namespace {
@@ -45,7 +47,9 @@ void HalfGuard::look(const Pose& pose, int places, GuardDepth& out) const {
 void HalfGuard::look(const Pose& pose, int places, double sight_mm, GuardDepth& out) const {
   const double length = radial_.axis_length();
   places = std::max(places, least_places_);
-  for (int j = 0; j < (tips_alone_ ? places / 2 + 1 : places); ++j) {
+  const int asked = tips_alone_ ? places / 2 + 1 : places;
+  count_work(static_cast<std::uint64_t>(asked) * (faces_.sides.size() + faces_.others.size()));
+  for (int j = 0; j < asked; ++j) {
     const double s = length * j / (places - 1), r = radial_.at(s).r, horizon = r + sight_mm;
     const Vec3 p = pose.at(s);
     for (const Target* side : faces_.sides) {

@@ -59,6 +59,8 @@ class NearPoses {
   /// Rows of this motion come next, of the stock as it is.
   void begin(const RuledMotion& motion);
   [[nodiscard]] const Sweep& own() const { return own_; }
+  /// Chunks of sweeps that some row of the motion may meet.
+  [[nodiscard]] std::size_t count() const { return firsts_.size(); }
   /// Its places in [0, own().last()] as a motion over [0, 1].
   static constexpr int kOwnIntervals = 48;
 
