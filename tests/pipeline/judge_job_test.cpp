@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "flank/pipeline/folder/target_reach.h"
 #include "flank/setup/check_faces.h"
+#include "flank/setup/target_reach.h"
 #include "flank/setup/targets.h"
 #include "rotor37_file.h"
 #include "sanitized.h"

@@ -12,7 +12,7 @@
 #include "flank/limit/least_left.h"
 #include "flank/path/turning.h"
 #include "flank/pipeline/folder/find_buried.h"
-#include "flank/pipeline/folder/target_reach.h"
+#include "flank/setup/target_reach.h"
 #include "flank/setup/targets.h"
 #include "flank/tool/grown.h"
 #include "flank/verify/judge_faces.h"

@@ -1,5 +1,5 @@
 // How finely the faces around a target are cut for the ball that says what is reachable.
-#include "flank/pipeline/folder/target_reach.h"
+#include "flank/setup/target_reach.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "flank/pipeline/folder/target_reach.h"
+#include "flank/setup/target_reach.h"
 
 #include <algorithm>
 #include <functional>
