@@ -15,7 +15,7 @@ const double kCorner = (std::sqrt(2.0) - 1.0) / (std::sqrt(2.0) + 1.0);  // of a
 /// A floor with a wall on it at x = 0; 1 mm is left on the floor at a place beside the wall.
 class BesideAWall : public ::testing::Test {
  protected:
-  Setup setup_;
+  internal::Setup setup_;
   VerifyReport report_;
 
   BesideAWall() {
