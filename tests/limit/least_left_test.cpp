@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 #include "seed/sheet.h"
 
@@ -19,14 +20,27 @@ class BesideAWall : public ::testing::Test {
   VerifyReport report_;
 
   BesideAWall() {
-    Face floor = testing::rectangle(0.0, 0.0, 20.0, 10.0);
-    Face wall = testing::sheet([](double u, double v) { return Vec3(0.0, 10.0 * u, 15.0 * v); }, 4, 4);
-    wall.id = "F2";
-    setup_.part.faces = {floor, wall};
-    setup_.part.box.add(Vec3(0, 0, 0));
-    setup_.part.box.add(Vec3(20, 10, 15));
+    setup_.part.faces = {testing::rectangle(0.0, 0.0, 20.0, 10.0)};
+    // A block whose near side is the wall: all of its sides, or a ball inside of it would count.
+    const Vec3 low(-40, -40, -40), size(40, 90, 80);
+    for (int k = 0; k < 3; ++k)
+      for (const bool high : {false, true}) {
+        const Vec3 e = Vec3::Unit(k), across = Vec3::Unit((k + (high ? 1 : 2)) % 3),
+                   along = Vec3::Unit((k + (high ? 2 : 1)) % 3);
+        const Vec3 corner = low + (high ? size[k] : 0.0) * e;
+        Face side = testing::sheet(
+            [=](double u, double v) {
+              return Vec3(corner + u * size.dot(across) * across + v * size.dot(along) * along);
+            },
+            4, 4);
+        side.id = "F" + std::to_string(setup_.part.faces.size() + 1);
+        side.solid = 1;
+        setup_.part.faces.push_back(side);
+      }
+    setup_.part.box.add(low);
+    setup_.part.box.add(Vec3(20, 50, 40));
     setup_.targets = {0};
-    setup_.checks = {1};
+    setup_.checks = {1, 2, 3, 4, 5, 6};
     report_.tolerance_mm = 0.05;
     report_.reach_radius_mm = 2.0;
     leaves(1.0, Vec3(0, 5, 0));
