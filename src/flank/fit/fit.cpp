@@ -96,9 +96,7 @@ void quick_fit(Candidate& candidate, const Target& target, const ToolModel& tool
                const std::vector<SurfaceSample>& samples) {
   const LaidStart laid = lay_start(target, *candidate.chart, candidate.start, tool, options);
   if (laid.tasks.empty()) return;
-  const FitDraft draft = tool.free()
-                             ? start_draft(laid.tasks, tool, laid.start.radius_mm, std::sin(laid.start.lean_rad))
-                             : start_draft(laid.tasks, tool, candidate.start.radius_mm);
+  const FitDraft draft = start_draft(laid.tasks, tool, laid.start.radius_mm, std::sin(laid.start.lean_rad));
   if (candidate.section != nullptr)
     orbit_fit(candidate, draft, options);
   else

@@ -94,28 +94,6 @@ TEST_F(InADish, AGivenToolStaysAsItIs) {
   EXPECT_EQ(laid(tool).start.lean_rad, 0.0);
 }
 
-TEST_F(InADish, AGivenConeLeansAsItsFlankDoesWithItsTipAtEitherEnd) {
-  ToolModel tool;
-  tool.make = [](double length, double) {
-    return RadialFunction(ToolFamily::kCone, length, Eigen::Vector2d(2.0, 12.0 * kDegree));
-  };
-  tool.radius = 2.0;
-  const std::vector<RuledStart> starts = enumerate_starts(chart_, tool, options_, {false, true});
-  ASSERT_EQ(starts.size(), 20u);
-  for (const RuledStart& start : starts) {
-    if (start.skew_rad != 0.0) continue;
-    const LaidStart found = lay_start(*floor_, chart_, start, tool, options_);
-    const RuledMotion& motion = found.tasks.front().motion;
-    const RadialFunction cone = tool.make(motion.axis_length, 2.0);
-    for (const double s : {0.0, 0.6 * motion.axis_length})
-      EXPECT_NEAR(motion.pose(0.4).at(s).z(), cone.at(s).r, 1e-6) << start.swapped << start.tip_high;
-  }
-  tool.make = [](double length, double radius) {
-    return RadialFunction(ToolFamily::kCylinder, length, Eigen::VectorXd::Constant(1, radius));
-  };
-  EXPECT_EQ(enumerate_starts(chart_, tool, options_, {false, true}).size(), 10u);
-}
-
 TEST_F(InADish, WhereNothingIsFreeAStartLiesAlongTheFace) {
   rises(91.0);
   EXPECT_EQ(laid().start.lean_rad, 0.0);

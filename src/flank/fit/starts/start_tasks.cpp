@@ -97,32 +97,6 @@ std::optional<RuledStart> leaned(const RuledStart& start, double lean, bool tip_
   return leaning;
 }
 
-/// How a given tool widens from its tip, and its radius there.
-struct Taper {
-  double radius_mm = 0.0, slope = 0.0;
-};
-
-Taper taper_of(const ToolModel& tool, double length, double radius) {
-  const RadialFunction made = tool.make(length, radius);
-  return {made.at(0.0).r, (made.at(length).r - made.at(0.0).r) / length};
-}
-
-/// Does a given tool have a thin end and a thick one?
-bool is_tapered(const ToolModel& tool) {
-  constexpr double kLeast = 0.01;  // r': half a degree
-  const double length = tool.axis_length.value_or(1.0);
-  return !tool.free() && std::abs(taper_of(tool, length, tool.radius.value_or(1.0)).slope) > kLeast;
-}
-
-/// The start, leaning as the flank of a given tool does.
-RuledStart tapered(const RuledStart& start, const ToolModel& tool, double length, const FlankFitOptions& options) {
-  const Taper taper = taper_of(tool, tool.length_for(length, options.axis_length_mm), start.radius_mm);
-  RuledStart leaning = start;
-  leaning.radius_mm = taper.radius_mm;
-  leaning.lean_rad = std::asin(std::clamp(taper.slope, -0.9, 0.9));
-  return leaning;
-}
-
 LaidStart laid(const Target& target, const Chart& chart, const RuledStart& start, const ToolModel& tool,
                const FlankFitOptions& options) {
   LaidStart laid{start, {}};
@@ -158,10 +132,6 @@ std::vector<RuledStart> enumerate_starts(const Chart& chart, const ToolModel& to
         start.radius_mm = radius;
         start.skew_rad = skew * kDegree;
         starts.push_back(start);
-        if (!is_tapered(tool)) continue;
-        // Nothing tells at which end of the face a tapered tool has its tip.
-        start.tip_high = true;
-        starts.push_back(start);
       }
   }
   return starts;
@@ -170,8 +140,6 @@ std::vector<RuledStart> enumerate_starts(const Chart& chart, const ToolModel& to
 LaidStart lay_start(const Target& target, const Chart& chart, const RuledStart& start, const ToolModel& tool,
                     const FlankFitOptions& options) {
   const double length = longest_chord(chart, start);
-  if (!tool.free() && is_tapered(tool))
-    return laid(target, chart, tapered(start, tool, length, options), tool, options);
   LaidStart best = laid(target, chart, start, tool, options);
   hold_from_free_end(options, best.tasks);
   double unheld = unheld_of(best, options);

@@ -21,9 +21,8 @@ struct LaidStart {
   std::vector<FitTask> tasks;
 };
 
-/// The start laid over the target; with options.obstacles, cut to what is free. No tasks where no line is. A given tool that widens from its
-/// tip leans as its flank does. A free one leans away from the target, as a cone, by as little as it must for something to hold it
-/// (FlankFitOptions::is_free_line).
+/// The start laid over the target; with options.obstacles, cut to what is free. No tasks where no line is. A free tool leans away from
+/// the target, as a cone, by as little as it must for something to hold it (FlankFitOptions::is_free_line).
 [[nodiscard]] LaidStart lay_start(const Target& target, const Chart& chart, const RuledStart& start,
                                   const ToolModel& tool, const FlankFitOptions& options);
 
