@@ -66,7 +66,7 @@ Line free_stretch(const FittedLine& axis, const RuledStart& start, const Obstacl
     }
     if (sigma >= end) break;
     // A distance is 1-Lipschitz: for |gap| along the line of a cylinder nothing changes, neither free nor blocked.
-    sigma = std::min(end, sigma + std::max(step, std::abs(gap) / (1.0 + std::abs(std::sin(start.lean_rad)))));
+    sigma = std::min(end, sigma + std::max(step, std::abs(gap) / (1.0 + std::sin(start.lean_rad))));
   }
   if (inside) close(end, false);
   line.free = line.free && line.high - line.low > step;

@@ -12,7 +12,7 @@ struct RuledStart {
   bool swapped = false;    ///< axis along the chart's a direction, motion along b
   double skew_rad = 0.0;   ///< angle of the contact lines against the chart's lines, in the surface; |skew| < pi/2
   double radius_mm = 0.0;  ///< of the tool, mm, at its tip; 0: the contact lines themselves
-  /// Of the axis, away from the surface, |lean| < pi/2: the tool is a cone that widens from its tip. 0: a cylinder.
+  /// Of the axis, away from the surface, in [0, pi/2): the tool is a cone that widens from its tip. 0: a cylinder.
   double lean_rad = 0.0;
   bool tip_high = false;                   ///< of a leaning start: the tip is at the high end of the band
   double band_low = 0.0, band_high = 1.0;  ///< share of the width that this strip covers
