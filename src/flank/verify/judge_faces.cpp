@@ -48,9 +48,12 @@ struct FaceCache {
 };
 
 /// Looks at the coverage, in shares of ProofOptions::cover_evaluations. Where a share of the face is asked for, the first is coarse:
-/// if it is clear at once that this is covered, or that it is not, the last digits of the bound are not worth their price. The
+/// if it is clear at once that this is covered, or by how much it is not, the last digits of the bound are not worth their price. The
 /// last ones cut the cells along the border of what is covered twice and three times more.
 constexpr std::array<double, 4> kCoverageEffort{1.0 / 12.0, 1.0, 16.0, 64.0};
+
+/// A proof of coverage that says less than this share of what is measured is one of nothing.
+constexpr double kTellingProof = 0.9;
 
 /// One judgement.
 class Judge {
@@ -77,7 +80,7 @@ class Judge {
         for (FaceCache& face : known) face.samples.reset();
         continue;
       }
-      if (!undecided(least)) break;
+      if (!undecided(least, look)) break;
       ++look;
     }
     return std::move(report_);
@@ -91,12 +94,13 @@ class Judge {
     prepare_histogram(report_, options_);
   }
 
-  /// Measured to cover what is needed, but not proved to.
-  [[nodiscard]] bool undecided(const LeastCoverage& least) const {
+  /// Measured to cover what is needed, but not proved to. What is measured to cover less is looked at once more, where the proof of
+  /// it says next to nothing.
+  [[nodiscard]] bool undecided(const LeastCoverage& least, std::size_t look) const {
     if (report_.overcut_bound_mm > report_.tolerance_mm || !report_.coverage_bound) return false;
     const bool measured = report_.coverage_reachable >= least.reachable && report_.coverage >= least.whole;
-    const bool proved = *report_.coverage_reachable_bound >= least.reachable && *report_.coverage_bound >= least.whole;
-    return measured && !proved;
+    if (!measured) return look == 0 && *report_.coverage_bound < kTellingProof * report_.coverage;
+    return *report_.coverage_reachable_bound < least.reachable || *report_.coverage_bound < least.whole;
   }
 
   /// May the cells in which what is reachable ends tell whether what is needed is covered? They count whole where they are open, and

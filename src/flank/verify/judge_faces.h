@@ -27,7 +27,8 @@ struct LeastCoverage {
 };
 
 /// judge() of flank/judge.h. Where the targets are measured to be covered by `least` and not
-/// proved to be, and the verdict hangs on that alone, the proof of coverage goes on, finer; and where it may hang on the cells that
+/// proved to be, and the verdict hangs on that alone, the proof of coverage goes on, finer; where they are measured to be covered by
+/// less, one finer look says how much of that is proved; and where it may hang on the cells that
 /// are reachable in part, these are cut first.
 [[nodiscard]] VerifyReport judge_faces(const Tool& tool, const Path& path, const std::vector<JudgedFace>& faces,
                                        const JudgeOptions& options, const LeastCoverage& least = {});

@@ -129,6 +129,25 @@ TEST(CoverSearch, PassesThatAreNarrowerThanACellProveItTogether) {
   EXPECT_GE(c.proved, 0.95);  // 0.81 where each cell only asks the pass of the one before
 }
 
+/// A budget for a quarter of what the next cut makes cuts a quarter of the cells, and proves as much of them.
+TEST(CoverSearch, ABudgetThatEndsInsideACutIsSpentAllTheSame) {
+  Random random(8);
+  const Tool tool = brute::random_tool(random, 16.0);
+  const SweptVolume volume(tool, pass(random, 0.0, tool.radial.at(8.0).r));
+  const Face face = test::plane_face("F1", 20.0, 10.0);
+  const FaceSamples samples = sample_face(face, 0.8, true);
+  const auto f = swept_distances(volume, samples, 1e300);
+  CoverLimits limits = usual_limits(samples);
+  std::vector<double> open;
+  for (const std::size_t halves : {0, 1, 2, 3}) {  // of a ball a sample
+    limits.evaluations = halves * samples.points.size() / 2;
+    const ProvedCover cover = search_cover(volume, *make_shape(face), samples, f, limits);
+    EXPECT_LE(cover.evaluations, limits.evaluations);
+    open.push_back(area_of(cover.open_mm2));
+  }
+  for (std::size_t k = 1; k < open.size(); ++k) EXPECT_LT(open[k], open[k - 1]) << k << " halves of a ball a sample";
+}
+
 TEST(CoverSearch, ABudgetIsSpentToItsEnd) {
   Tool tool;
   tool.radial = RadialFunction::spline(20.0, Eigen::VectorXd::Constant(6, 2.0));

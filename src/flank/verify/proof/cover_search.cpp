@@ -75,20 +75,18 @@ class CoverSearch {
   }
 
  private:
-  /// Cuts cells until no more than `gap_mm2` of them is open, or `evaluations` are reached, those before them included.
+  /// Cuts cells until no more than `gap_mm2` of them is open, or `evaluations` are reached, those before them included. What the last of
+  /// them do not suffice for stays open; the cells before it are cut all the same.
   void search(std::vector<Open> open, double gap_mm2, std::size_t evaluations) {
     for (int depth = 0; !open.empty(); ++depth) {
       stop_here();
-      const bool enough = settled(open, gap_mm2);
-      const std::size_t most = std::min(limits_.cells, evaluations - std::min(evaluations, out_.evaluations));
-      std::vector<Open> parts;
-      if (depth < kDeepest && !enough) parts = cut(open, most);
-      if (parts.empty() || parts.size() > most) {
-        for (const Open& o : open) out_.open_mm2[o.sample] += shape_.area_bound(o.cell);
-        break;
-      }
+      std::size_t most = std::min(limits_.cells, evaluations - std::min(evaluations, out_.evaluations));
+      if (depth == kDeepest || settled(open, gap_mm2)) most = 0;
+      Cut cut_now = cut(open, most);
+      for (std::size_t k = cut_now.cells; k < open.size(); ++k)
+        out_.open_mm2[open[k].sample] += shape_.area_bound(open[k].cell);
       open = {};  // a cell takes 150 bytes, and there may be a million
-      open = look(std::move(parts));
+      open = look(std::move(cut_now.parts));
     }
   }
 
@@ -153,17 +151,23 @@ class CoverSearch {
     });
   }
 
-  /// Counted, not guessed, because a long cell is cut in two, a square one in four; ends where it has more than `most`.
-  [[nodiscard]] std::vector<Open> cut(const std::vector<Open>& open, std::size_t most) const {
+  struct Cut {
     std::vector<Open> parts;
+    std::size_t cells = 0;  ///< the first ones, that were cut
+  };
+
+  /// As many cells as have no more than `most` parts. Counted, not guessed, because a long cell is cut in two, a square one in four.
+  [[nodiscard]] Cut cut(const std::vector<Open>& open, std::size_t most) const {
+    Cut out;
     std::vector<Cell> cells;
-    for (const Open& o : open) {
-      if (parts.size() > most) break;
+    for (; out.cells < open.size() && out.parts.size() < most; ++out.cells) {
+      const Open& o = open[out.cells];
       cells.clear();
       shape_.split(o.cell, cells);
-      for (const Cell& cell : cells) parts.push_back({cell, o.sample, o.near});
+      if (out.parts.size() + cells.size() > most) break;
+      for (const Cell& cell : cells) out.parts.push_back({cell, o.sample, o.near});
     }
-    return parts;
+    return out;
   }
 
   std::vector<Open> look(std::vector<Open> parts) {
