@@ -10,6 +10,7 @@
 #include "flank/io/text/read_bytes.h"
 #include "flank/io/text/step_syntax.h"
 #include "io/part_files.h"
+#include "sanitized.h"
 
 namespace flank::internal {
 namespace {
@@ -98,11 +99,7 @@ TEST(Refusals, PrefixesOfGoodFiles) {
 
 // Bytes of good meshes exchanged at random: read or refused, never anything else.
 TEST(Refusals, MutatedMeshes) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  constexpr int kMutants = 300;
-#else
-  constexpr int kMutants = 3000;
-#endif
+  constexpr int kMutants = kSanitized ? 300 : 1000;
   const Scratch scratch;
   TriangleMesh mesh;
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

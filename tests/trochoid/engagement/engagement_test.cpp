@@ -172,7 +172,7 @@ TEST(Engagement, WhatALeaningToolLeavesBesideItsRoundEndIsMaterial) {
   constexpr double kRadius = 6.0, kLength = 22.0;
   Random random(5);
   const RuledMotion next = straight(Vec3(0, 0, 0), Vec3::UnitZ(), 10.0, kLength);
-  const int scenes = kSanitized ? 30 : 200;
+  const int scenes = kSanitized ? 15 : 100;
   int partly = 0, scallops = 0;
   for (int k = 0; k < scenes; ++k) {
     SweptStock stock(cylinder(kRadius, kLength), {});
@@ -202,7 +202,7 @@ TEST(Engagement, BesideThePoleOfAToolThatHardlyLeansLittleIsCovered) {
   constexpr double kRadius = 4.5, kLength = 30.0, kRing = 12.0;
   Random random(11);
   const RuledMotion next = straight(Vec3(0, 0, 0), Vec3::UnitZ(), 10.0, kLength);
-  const int scenes = kSanitized ? 20 : 120;
+  const int scenes = kSanitized ? 10 : 60;
   int touched = 0;
   for (int k = 0; k < scenes; ++k) {
     SweptStock stock(cylinder(kRadius, kLength), {});
@@ -225,7 +225,7 @@ TEST(Engagement, WhereRoundEndsOnlyGrazeARingTheirSweepsCover) {
   constexpr double kRadius = 4.5, kLength = 30.0, kRing = 12.0;
   Random random(21);
   const RuledMotion next = straight(Vec3(0, 0, 0), Vec3::UnitZ(), 10.0, kLength);
-  const int scenes = kSanitized ? 12 : 60;
+  const int scenes = kSanitized ? 8 : 40;
   int off = 0;
   for (int k = 0; k < scenes; ++k) {
     SweptStock stock(cylinder(kRadius, kLength), {});

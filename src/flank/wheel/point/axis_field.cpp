@@ -151,6 +151,19 @@ Vec3 AxisField::at(double row, double column) const {
   return held_.nearest(sum.normalized());
 }
 
+std::array<Vec3, 4> AxisField::around(double row, double column) const {
+  const auto pair_of = [](double at, int count) {
+    const double x = std::clamp(at, 0.0, count - 1.0);
+    const int low = std::min(static_cast<int>(x), std::max(0, count - 2)), high = std::min(low + 1, count - 1);
+    return x - low < 0.5 ? std::pair(low, high) : std::pair(high, low);
+  };
+  const auto [row_near, row_far] = pair_of(row, rows_);
+  const auto [column_near, column_far] = pair_of(column, columns_);
+  const auto axis = [&](int r, int c) { return nodes_[static_cast<std::size_t>(r * columns_ + c)].axis; };
+  return {axis(row_near, column_near), axis(row_far, column_near), axis(row_near, column_far),
+          axis(row_far, column_far)};
+}
+
 double AxisField::least_room() const {
   double least = 1e300;
   for (const Node& node : nodes_)

@@ -1,6 +1,7 @@
 /// Directions of the axis over a channel's floor: with room on all sides, and changing slowly.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "flank/wheel/point/tip_room.h"
@@ -18,6 +19,8 @@ class AxisField {
   [[nodiscard]] int columns() const { return columns_; }
   /// Between the nodes; row and column from 0 to their number less 1.
   [[nodiscard]] Vec3 at(double row, double column) const;
+  /// Of the four nodes around, the nearest one first: what lies between directions with room may have none.
+  [[nodiscard]] std::array<Vec3, 4> around(double row, double column) const;
   /// Least room of the nodes that are there, as rough_room() counts, mm.
   [[nodiscard]] double least_room() const;
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "flank/base/parallel.h"
+#include "flank/wheel/point/gentle_line.h"
 
 namespace flank::internal {
 namespace {
@@ -18,32 +19,12 @@ constexpr double kMostSlope = 0.15;  ///< of the outermost pass against the chan
 constexpr double kBeyondShare =
     0.6;  ///< of a blade's thickness, that the floor is taken beyond a side's line where no blade stands
 constexpr double kLeastSquare = 0.2;
-constexpr double kEndMm = 4.0;  ///< of a line's end, that says how the channel goes on
+constexpr double kRounder = 1.25;  ///< than a pass may turn: nothing of that is left to rounding
 
-/// A line that goes on beyond its ends beside another one, or, where that has ended, too, as both of them together ran there.
-class LongLine {
- public:
-  LongLine(const SideLine& own, const SideLine& other) : own_(own), other_(other) {}
-  [[nodiscard]] double angle(double way) const {
-    if (way >= own_.from() && way <= own_.to()) return own_.angle(way);
-    const bool before = way < own_.from();
-    const double end = before ? own_.from() : own_.to(), reach = before ? std::max(way, std::min(end, other_.from()))
-                                                                        : std::min(way, std::max(end, other_.to()));
-    const double beside = own_.angle(end) + other_.angle(reach) - other_.angle(end);
-    return beside + (way - reach) * slope(before);
-  }
-
- private:
-  [[nodiscard]] double slope(bool before) const {
-    const auto of = [&](const SideLine& line) {
-      const double mm = std::min(kEndMm, 0.5 * (line.to() - line.from()));
-      return before ? (line.angle(line.from() + mm) - line.angle(line.from())) / mm
-                    : (line.angle(line.to()) - line.angle(line.to() - mm)) / mm;
-    };
-    return 0.5 * (of(own_) + of(other_));
-  }
-  const SideLine &own_, &other_;
-};
+/// The least radius of a pass that turns no more than it may, mm. The window is one of both ends of the axis.
+double least_radius(const PointOptions& options) {
+  return kRounder * options.turn_window_mm / (std::numbers::sqrt2 * options.most_turn_rad);
+}
 
 }  // namespace
 
@@ -57,8 +38,9 @@ ChannelLines::ChannelLines(const FloorChannel& channel)
   second.turn(-whole * std::floor((second.angle(middle) - first.angle(middle)) / whole));
 }
 
-ChannelRows::ChannelRows(const FloorChannel& channel, const ChannelLines& lines, const TipRoom& room)
-    : channel_(channel), lines_(lines), room_(room) {
+ChannelRows::ChannelRows(const FloorChannel& channel, const ChannelLines& lines, const TipRoom& room,
+                         const PointOptions& options)
+    : channel_(channel), lines_(lines), room_(room), radius_mm_(least_radius(options)) {
   if (!lines.known()) return;
   place_rows();
   square_up();
@@ -68,7 +50,8 @@ ChannelRows::ChannelRows(const FloorChannel& channel, const ChannelLines& lines,
 
 void ChannelRows::place_rows() {
   const FloorMap& map = lines_.map;
-  const LongLine one(lines_.first, lines_.second), other(lines_.second, lines_.first);
+  const GentleLine one(lines_.first, lines_.second, map, radius_mm_),
+      other(lines_.second, lines_.first, map, radius_mm_);
   constexpr double kFineMm = 0.1;
   double along = 0.0, next = 0.0;
   std::optional<Vec3> last;
@@ -76,6 +59,7 @@ void ChannelRows::place_rows() {
     ChannelRow row;
     row.way = k * kFineMm;
     row.first = one.angle(row.way), row.second = other.angle(row.way);
+    row.off = std::max(one.off(row.way), other.off(row.way)) * map.radius(row.way);
     row.width = (row.second - row.first) * map.radius(row.way);
     const Vec3 middle = map.place(row.way, 0.5 * (row.first + row.second));
     if (last) along += (middle - *last).norm();
@@ -108,7 +92,7 @@ std::optional<TipRoom::Rest> ChannelRows::at(const ChannelRow& row, double acros
 }
 
 void ChannelRows::bound(ChannelRow& row) const {
-  const double beyond = kBeyondShare * channel_.blade_mm / (std::max(row.square, kLeastSquare) * row.width);
+  const double beyond = (kBeyondShare * channel_.blade_mm / std::max(row.square, kLeastSquare) + row.off) / row.width;
   const auto is_free = [&](double across) {
     const std::optional<TipRoom::Rest> here = at(row, across);
     return here && room_.tip_is_free(here->center);
@@ -133,15 +117,19 @@ void ChannelRows::bound(ChannelRow& row) const {
   row.open = true;
 }
 
-/// The outermost passes would jump sideways where a blade begins: they swing out before it instead.
+/// The outermost passes would jump sideways where a blade begins: they swing out before it instead, round at first.
 void ChannelRows::even_out() {
+  const auto swing = [&](double along) {
+    const double bent = kMostSlope * radius_mm_;
+    return along < bent ? 0.5 * along * along / radius_mm_ : kMostSlope * (along - 0.5 * bent);
+  };
   std::vector<double> low(rows_.size()), high(rows_.size());
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const ChannelRow& row = rows_[i];
     if (!row.open) continue;
     low[i] = row.low * row.width, high[i] = (1.0 - row.high) * row.width;
     for (const ChannelRow& other : rows_) {
-      const double off = kMostSlope * std::abs(other.along - row.along);
+      const double off = swing(std::abs(other.along - row.along));
       if (!other.open) continue;
       low[i] = std::max(low[i], other.low * other.width - off);
       high[i] = std::max(high[i], (1.0 - other.high) * other.width - off);

@@ -1,6 +1,7 @@
 /// Where a channel begins and ends on its floor: places along it, and at each how far the tip may go to either side.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "flank/wheel/point/floor_map.h"
@@ -14,11 +15,16 @@ struct ChannelRow {
   double first = 0.0, second = 0.0;  ///< angles of the two sides' lines
   double width = 0.0;                ///< between them round the axis, mm
   double square = 1.0;           ///< of a millimetre round the axis, what is across the channel: less where it winds
+  double off = 0.0;              ///< of the sides themselves beside their lines, at most, round the axis, mm
   double along = 0.0;            ///< along the middle of the channel, mm
   double low = 0.0, high = 1.0;  ///< from pass to pass, evenly along the channel
   double free_low = 0.0,
          free_high = 1.0;  ///< between which the tip is free: beyond `low` and `high` before and behind a blade
   bool open = false;
+  /// Of a share from `low` to `high` that from `free_low` to `free_high`: where directions are known.
+  [[nodiscard]] double free_share(double share) const {
+    return std::clamp((low + share * (high - low) - free_low) / (free_high - free_low), 0.0, 1.0);
+  }
 };
 
 /// The floor, and where the two sides of a channel stand on it: the same for every tool and at every height.
@@ -32,12 +38,16 @@ struct ChannelLines {
 
 class ChannelRows {
  public:
-  /// All three must outlive it.
-  ChannelRows(const FloorChannel& channel, const ChannelLines& lines, const TipRoom& room);
+  /// The first three must outlive it.
+  ChannelRows(const FloorChannel& channel, const ChannelLines& lines, const TipRoom& room, const PointOptions& options);
   [[nodiscard]] const std::vector<ChannelRow>& rows() const { return rows_; }
   /// The tip's place at a share from `low` to `high` of a row; none beside the floor.
   [[nodiscard]] std::optional<TipRoom::Rest> rest(const ChannelRow& row, double share) const {
     return at(row, row.low + share * (row.high - row.low));
+  }
+  /// The same from `free_low` to `free_high`.
+  [[nodiscard]] std::optional<TipRoom::Rest> free_rest(const ChannelRow& row, double share) const {
+    return at(row, row.free_low + share * (row.free_high - row.free_low));
   }
 
  private:
@@ -50,6 +60,7 @@ class ChannelRows {
   const FloorChannel& channel_;
   const ChannelLines& lines_;
   const TipRoom& room_;
+  double radius_mm_;  ///< that a pass turns with at least
   std::vector<ChannelRow> rows_;
 };
 

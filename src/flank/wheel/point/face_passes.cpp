@@ -14,9 +14,9 @@
 namespace flank::internal {
 namespace {
 
-constexpr double kStepMm = 0.5;      ///< between poses
-constexpr double kNetMm = 2.5;       ///< of the net of directions, along
-constexpr std::size_t kColumns = 9;  ///< and across, at most
+constexpr double kStepMm = 0.5;       ///< between poses
+constexpr double kNetMm = 2.5;        ///< of the net of directions, along
+constexpr std::size_t kColumns = 18;  ///< and across, at most
 constexpr double kLinkMm =
     20.0;  ///< of a pass, that takes no longer than a link from its end to the next one's beginning
 constexpr double kLeastMm = 0.01;  ///< poses that are nearer to each other are one
@@ -74,24 +74,25 @@ AxisField field_of(const FaceLines& lines, const TipRoom& room, const Net& net, 
   return {room, places, net.rows, net.columns};
 }
 
-/// The pose at a place, whether it has room or not; none beside the face.
+/// A pose with room at a place; none beside the face, and where no direction of the field has any.
 std::optional<Pose> pose_at(const Work& work, std::size_t line, double place) {
   const std::optional<FaceLines::Place> here = work.lines.at(line, place);
   if (!here) return {};
-  return Pose{here->point + work.room.lift_mm() * here->normal,
-              work.field.at(place / work.net.rows_apart, static_cast<double>(line) / work.net.columns_apart)};
-}
-
-bool has_room(const Work& work, const std::optional<Pose>& pose) {
-  return pose && work.room.tip_is_free(pose->tip) && work.room.is_free(*pose);
+  const Vec3 tip = here->point + work.room.lift_mm() * here->normal;
+  if (!work.room.tip_is_free(tip)) return {};
+  const double row = place / work.net.rows_apart, column = static_cast<double>(line) / work.net.columns_apart;
+  const Pose smooth{tip, work.field.at(row, column)};
+  if (work.room.is_free(smooth)) return smooth;
+  for (const Vec3& axis : work.field.around(row, column))
+    if (const Pose pose{tip, axis}; work.room.is_free(pose)) return pose;
+  return {};
 }
 
 /// The last pose with room from a place that has it to one that has none.
 Pose last_with_room(const Work& work, std::size_t line, double good, double bad, Pose pose) {
   for (int k = 0; k < kHalvings; ++k) {
     const double middle = 0.5 * (good + bad);
-    const std::optional<Pose> there = pose_at(work, line, middle);
-    if (has_room(work, there))
+    if (const std::optional<Pose> there = pose_at(work, line, middle))
       good = middle, pose = *there;
     else
       bad = middle;
@@ -120,14 +121,14 @@ PoseRow row_of(const Work& work, std::size_t line, const std::vector<char>& want
   std::optional<Pose> last;
   for (std::size_t k = 0; k < wanted.size(); ++k) {
     const double place = static_cast<double>(k);
-    std::optional<Pose> pose = wanted[k] != 0 ? pose_at(work, line, place) : std::nullopt;
-    const bool free = has_room(work, pose);
+    const std::optional<Pose> pose = wanted[k] != 0 ? pose_at(work, line, place) : std::nullopt;
+    const bool free = pose.has_value();
     if (k > 0 && wanted[k] != 0 && wanted[k - 1] != 0 && free != last.has_value()) {
       const Pose& known = free ? *pose : *last;
       const Pose end = last_with_room(work, line, free ? place : place - 1.0, free ? place - 1.0 : place, known);
       if ((end.tip - known.tip).norm() > kLeastMm) out.emplace_back(end);
     }
-    last = free ? pose : std::nullopt;
+    last = pose;
     out.push_back(last);
   }
   return out;

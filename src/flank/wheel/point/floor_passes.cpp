@@ -28,11 +28,14 @@ double spacing(double tip_mm, double bend, const PointOptions& options) {
   return std::sqrt(8.0 * options.scallop_share * options.tolerance_mm / open);
 }
 
-/// Every so many rows of the channel the net has one.
-int net_stride(const std::vector<ChannelRow>& rows) {
-  const double step =
-      rows.size() > 1 ? (rows.back().along - rows.front().along) / (static_cast<double>(rows.size()) - 1.0) : kNetMm;
-  return std::max(1, static_cast<int>(kNetMm / step));
+/// The net along the channel: its first and its last row are those of the channel, the others evenly between them.
+int net_count(const std::vector<ChannelRow>& rows) {
+  return static_cast<int>(std::ceil((rows.back().along - rows.front().along) / kNetMm)) + 1;
+}
+
+/// Rows of the channel from one of the net to the next.
+double net_stride(const std::vector<ChannelRow>& rows) {
+  return (static_cast<double>(rows.size()) - 1.0) / std::max(1, net_count(rows) - 1);
 }
 
 struct Plan {
@@ -84,19 +87,19 @@ bool is_needed(const Plan& plan, std::size_t row, std::size_t j) {
 int columns_of(const std::vector<ChannelRow>& rows) {
   double widest = 0.0;
   for (const ChannelRow& row : rows)
-    if (row.open) widest = std::max(widest, (row.high - row.low) * row.width);
+    if (row.open) widest = std::max(widest, (row.free_high - row.free_low) * row.width);
   return std::max(kFewestColumns, static_cast<int>(std::ceil(widest / kColumnMm)) + 1);
 }
 
 AxisField field_of(const ChannelRows& channel, const TipRoom& room, const AxisField* before = nullptr) {
   const std::vector<ChannelRow>& rows = channel.rows();
-  const int stride = net_stride(rows), count = (static_cast<int>(rows.size()) - 1) / stride + 1,
-            columns = before != nullptr ? before->columns() : columns_of(rows);
+  const double stride = net_stride(rows);
+  const int count = net_count(rows), columns = before != nullptr ? before->columns() : columns_of(rows);
   std::vector<std::optional<TipRoom::Rest>> places(static_cast<std::size_t>(count * columns));
   parallel_for(places.size(), [&](std::size_t k) {
     const std::size_t across = k % static_cast<std::size_t>(columns), along = k / static_cast<std::size_t>(columns);
-    const ChannelRow& row = rows[along * static_cast<std::size_t>(stride)];
-    if (row.open) places[k] = channel.rest(row, static_cast<double>(across) / (columns - 1));
+    const ChannelRow& row = rows[static_cast<std::size_t>(std::lround(static_cast<double>(along) * stride))];
+    if (row.open) places[k] = channel.free_rest(row, static_cast<double>(across) / (columns - 1));
   });
   return {room, places, count, columns, before};
 }
@@ -108,7 +111,7 @@ std::optional<Pose> pose_at(const Plan& plan, const AxisField& field, std::size_
   if (!rest || (plan.options.is_air && plan.options.is_air(rest->center))) return {};
   // Beside a blade the axis of a place nearer to the middle may have room where its own has none.
   for (int k = 0; k < kAxes; ++k) {
-    const double column = std::lerp(std::clamp(share, 0.0, 1.0), 0.5, k / (kAxes - 1.0)) * (field.columns() - 1);
+    const double column = std::lerp(rows[row].free_share(share), 0.5, k / (kAxes - 1.0)) * (field.columns() - 1);
     const Pose pose{rest->center, field.at(static_cast<double>(row) / net_stride(rows), column)};
     if (plan.room.is_free(pose)) return pose;
   }
@@ -164,7 +167,7 @@ std::vector<Strip> point_passes(const FloorChannel& channel, const RadialFunctio
                                 const std::string& floor, const std::string& first, const std::string& second) {
   const TipRoom room(channel, radial, options);
   const ChannelLines lines(channel);
-  const ChannelRows rows(channel, lines, room);
+  const ChannelRows rows(channel, lines, room, options);
   if (rows.rows().size() < 3) return {};
   const AxisField field = field_of(rows, room);
   std::vector<Strip> out;
@@ -172,8 +175,8 @@ std::vector<Strip> point_passes(const FloorChannel& channel, const RadialFunctio
   const double stride = net_stride(rows.rows());
   for (const bool at_first : {true, false}) {
     const auto axis = [&](std::size_t row, double inwards) {
-      const double last = field.columns() - 1.0, column = last * inwards;
-      return field.at(static_cast<double>(row) / stride, at_first ? column : last - column);
+      const double share = rows.rows()[row].free_share(at_first ? inwards : 1.0 - inwards);
+      return field.at(static_cast<double>(row) / stride, share * (field.columns() - 1.0));
     };
     add_strips(wall_rows({channel, rows, room, options, axis, at_first}), room, radial, options, "wall",
                at_first ? first : second, out);
@@ -192,7 +195,7 @@ std::vector<std::vector<Strip>> layer_passes(const FloorChannel& channel, const 
     here.height_mm = height;
     const TipRoom room(channel, radial, here);
     // Rows and columns of the field are the same at every height: they follow from the sides' lines on the floor.
-    const ChannelRows rows(channel, lines, room);
+    const ChannelRows rows(channel, lines, room, here);
     out.emplace_back();
     if (rows.rows().size() < 3) continue;
     AxisField field = field_of(rows, room, below ? &*below : nullptr);
@@ -205,7 +208,7 @@ std::vector<std::vector<Strip>> layer_passes(const FloorChannel& channel, const 
 double channel_width(const FloorChannel& channel, const RadialFunction& radial) {
   const TipRoom room(channel, radial, {});
   const ChannelLines lines(channel);
-  const ChannelRows rows(channel, lines, room);
+  const ChannelRows rows(channel, lines, room, {});
   std::vector<double> widths;
   for (const ChannelRow& row : rows.rows()) widths.push_back(row.width);
   if (widths.size() < 3) return 0.0;
