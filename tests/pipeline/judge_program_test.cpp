@@ -348,10 +348,14 @@ INSTANTIATE_TEST_SUITE_P(All, Programs, ::testing::ValuesIn(machines_to_ask()), 
 TEST(Program, APoseMovedByATenthIsFoundInEveryDirection) {
   const std::string text = result().post("fanuc-ac");
   for (const char letter : {'X', 'Y', 'Z'})
-    for (const double by : {-0.1, 0.1}) EXPECT_NE(complaint(moved(text, letter, by), "fanuc-ac"), "") << letter << by;
+    for (const double by : {-0.1, 0.1}) {
+      if (kSanitized && (letter != 'Y' || by < 0.0)) continue;
+      EXPECT_NE(complaint(moved(text, letter, by), "fanuc-ac"), "") << letter << by;
+    }
 }
 
 TEST(Program, WhatTheRequestSaysTakesThePlaceOfTheHeader) {
+  if (kSanitized) GTEST_SKIP() << "four more judgements of the kind that is made beside it";
   const Machine machine = read_machine("fanuc-ac");
   const std::string text = result().post("fanuc-ac");
   VerifyJob job = result().asked(other_offset(text, machine), "fanuc-ac");
@@ -368,6 +372,7 @@ TEST(Program, WhatTheRequestSaysTakesThePlaceOfTheHeader) {
 }
 
 TEST(Program, AHeaderThatContradictsItselfIsTold) {
+  if (kSanitized) GTEST_SKIP() << "four more judgements of the kind that is made beside it";
   const std::string text = result().post("fanuc-ac");
   EXPECT_NE(complaint(replaced(text, "HOLDS X", "HOLDS X1"), "fanuc-ac").find("setup:"), std::string::npos);
   EXPECT_NE(complaint(replaced(text, "\\(MACHINE ", "(MACHINE NO-"), "fanuc-ac").find("machine:"), std::string::npos);
