@@ -159,5 +159,22 @@ TEST(WheelSector, CopiesAreTurnedByExactlyAPitchEach) {
   for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(whole.strips[k].id, static_cast<int>(k) + 1);
 }
 
+TEST(WheelSector, CopiesOfThePlacesWithinAPitchAreAllPlacesOnce) {
+  WheelAxis axis;
+  axis.point = Vec3(1.0, 2.0, 3.0), axis.direction = Vec3(0.2, -0.3, 0.9).normalized();
+  for (const int count : {1, 2, 7}) {
+    const double pitch = 2.0 * std::numbers::pi / count;
+    for (int k = 0; k < 200; ++k) {
+      const Vec3 p = axis.point + 10.0 * Vec3(std::sin(1.0 + k), std::cos(3.0 * k), std::sin(0.7 * k));
+      int times = 0;
+      for (int turns = 0; turns < count; ++turns) {
+        const Vec3 there = axis.turn(turns * pitch) * p;
+        times += is_within_pitch(there, axis, 2.5, pitch) ? 1 : 0;
+      }
+      EXPECT_EQ(times, 1) << count << " " << k;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace flank::internal

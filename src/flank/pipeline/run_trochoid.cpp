@@ -215,7 +215,7 @@ void take(const CavityPlan& plan, const TrochoidJob& job, const ToolSpec& spec, 
 
 /// How much a search does (base/work_count.h), by the word of the job.
 double most_looks_of(const TrochoidJob& job) {
-  constexpr double kNormal = 2e8, kQuick = 2e7, kNoLimit = 1e300;
+  constexpr double kNormal = 1e8, kQuick = 2e7, kNoLimit = 1e300;
   return job.effort == "quick" ? kQuick : job.effort == "thorough" ? kNoLimit : kNormal;
 }
 

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <numbers>
 #include <utility>
 
 #include "flank/error.h"
@@ -45,12 +46,16 @@ FloorChannel around(WheelWork& work) {
   return out;
 }
 
+std::function<bool(const Vec3&)> finished_by(const WheelWork& work, const std::vector<Strip>& strips) {
+  const auto finished =
+      std::make_shared<const FinishedPlaces>(strips, work.tool->radial, kFinishedShare * work.job.tolerance_mm);
+  return [finished](const Vec3& x) { return (*finished)(x); };
+}
+
 Path passes_along(WheelWork& work, const std::string& kind, const Names& faces, bool only_rest) {
   const FloorChannel place = around(work);
   PointOptions options = work.point_options();
-  const auto finished = std::make_shared<const FinishedPlaces>(work.finish.strips, work.tool->radial,
-                                                               kFinishedShare * work.job.tolerance_mm);
-  if (only_rest) options.is_finished = [finished](const Vec3& x) { return (*finished)(x); };
+  if (only_rest) options.is_finished = finished_by(work, work.finish.strips);
   Path out;
   for (const std::string& name : faces) {
     const std::optional<Face> face = work.targets.face(name);
@@ -58,10 +63,36 @@ Path passes_along(WheelWork& work, const std::string& kind, const Names& faces, 
     for (Strip& strip : face_passes(*face, place, work.tool->radial, options, kind, name))
       out.strips.push_back(std::move(strip));
   }
-  return guarded(work, out);
+  return out;
 }
 
-constexpr const char* kNoPass = "no pass has room";
+/// What is left of the hub a half pitch to either side of the sector's first blade: copies do the rest of it. Passes along a channel are
+/// short and many where it ends soon behind a blade, and those round the axis are not.
+Path passes_on_hub(WheelWork& work) {
+  std::vector<Strip> strips = work.finish.strips;
+  const WheelAxis& axis = work.roles.axis;
+  const double pitch = work.sector.pitch_rad, middle = work.sector.blades.front().angle_deg * std::numbers::pi / 180.0;
+  if (work.equal())
+    for (const double turns : {-pitch, pitch})
+      for (Strip strip : work.finish.strips) {
+        strip.poses = turned(strip.poses, axis, turns);
+        strips.push_back(std::move(strip));
+      }
+  PointOptions options = work.point_options();
+  options.is_finished = [finished = finished_by(work, strips), axis, middle, all = !work.equal(),
+                         pitch](const Vec3& x) {
+    return (!all && !is_within_pitch(x, axis, middle, pitch)) || finished(x);
+  };
+  const FloorChannel place = around(work);
+  Path out;
+  for (const std::string& name : work.roles.hub)
+    if (const std::optional<Face> face = work.targets.face(name))
+      for (Strip& strip : face_passes(*face, place, work.tool->radial, options, "rest", name))
+        out.strips.push_back(std::move(strip));
+  return out;
+}
+
+constexpr const char *kNoPass = "no pass has room", *kRest = "rest";
 
 WheelOperation on_faces(WheelWork& work, const std::string& id, const std::string& kind, const FacesOfBlade& which,
                         bool only_rest) {
@@ -80,6 +111,9 @@ WheelOperation on_faces(WheelWork& work, const std::string& id, const std::strin
                               fmt::format("{} {}", work.job.tolerance_mm, work.job.least_coverage);
   operation = perform(work, operation, decides, [&] {
     Path path = passes_along(work, kind, faces_of(blades, which), only_rest);
+    if (kind == kRest)
+      for (Strip& strip : passes_on_hub(work).strips) path.strips.push_back(std::move(strip));
+    path = guarded(work, path);
     if (path.strips.empty()) throw InputError(kNoPass);
     return judged_path(work, operation.faces, std::move(path), kDraftShare * work.job.least_coverage, Care::kDraft);
   });
@@ -112,7 +146,7 @@ WheelOperation edge_operation(WheelWork& work) {
 
 std::optional<WheelOperation> rest_operation(WheelWork& work) {
   return unless_nothing(on_faces(
-      work, "60", "rest", [](const WheelBlade& blade) { return blade.sides(); }, true));
+      work, "60", kRest, [](const WheelBlade& blade) { return blade.sides(); }, true));
 }
 
 }  // namespace flank::internal

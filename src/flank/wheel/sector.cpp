@@ -175,6 +175,10 @@ std::vector<MissingBlade> missing_beside(const WheelRoles& roles, const WheelSec
   return out;
 }
 
+bool is_within_pitch(const Vec3& p, const WheelAxis& axis, double middle_rad, double pitch_rad) {
+  return std::abs(std::remainder(axis.angle(p) - middle_rad, 2.0 * std::numbers::pi)) <= 0.5 * pitch_rad;
+}
+
 Path copied(const Path& sector, const WheelAxis& axis, double pitch_rad, int copies) {
   Path out;
   for (int k = 0; k < copies; ++k)

@@ -59,6 +59,9 @@ struct MissingBlade {
 /// Those beside a sector, a pitch before (-1) and behind: the blades of a part that is a piece of the wheel have neighbours, too.
 [[nodiscard]] std::vector<MissingBlade> missing_beside(const WheelRoles& roles, const WheelSector& sector);
 
+/// Whether a place is no more than half of a pitch about the axis from an angle: copies of those places are all that there are.
+[[nodiscard]] bool is_within_pitch(const Vec3& p, const WheelAxis& axis, double middle_rad, double pitch_rad);
+
 /// Every strip as often as there are sectors, one after the other, numbered anew.
 [[nodiscard]] Path copied(const Path& sector, const WheelAxis& axis, double pitch_rad, int copies);
 

@@ -57,6 +57,19 @@ TEST(AxisField, StaysInTheConeBetweenNodes) {
   for (double row = 0.0; row <= kRows - 1.0; row += 0.1) EXPECT_TRUE(held.holds(field.at(row, 0.0))) << row;
 }
 
+/// Those of the nodes are known to have room; between them nobody has looked.
+TEST(AxisField, TheDirectionsAroundAPlaceAreThoseOfItsNodesTheNearestFirst) {
+  const Floor floor;
+  const AxisField field = floor.field({});
+  for (const double row : {0.2, 3.7, 8.4}) {
+    const auto around = field.around(row, 0.0);
+    const double near = std::round(row), far = row < near ? near - 1.0 : near + 1.0;
+    EXPECT_EQ(around[0], field.around(near, 0.0)[0]) << row;
+    EXPECT_EQ(around[1], field.around(far, 0.0)[0]) << row;
+    for (const Vec3& axis : around) EXPECT_NEAR(axis.norm(), 1.0, 1e-12);
+  }
+}
+
 TEST(TiltCone, TheNearestDirectionIsOnItsRim) {
   const TiltCone cone{Vec3::UnitZ(), 1.9};
   EXPECT_EQ(cone.nearest(Vec3::UnitX()), Vec3::UnitX());

@@ -1,7 +1,6 @@
 /// Where a channel begins and ends on its floor: places along it, and at each how far the tip may go to either side.
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
 #include "flank/wheel/point/floor_map.h"
@@ -21,10 +20,6 @@ struct ChannelRow {
   double free_low = 0.0,
          free_high = 1.0;  ///< between which the tip is free: beyond `low` and `high` before and behind a blade
   bool open = false;
-  /// Of a share from `low` to `high` that from `free_low` to `free_high`: where directions are known.
-  [[nodiscard]] double free_share(double share) const {
-    return std::clamp((low + share * (high - low) - free_low) / (free_high - free_low), 0.0, 1.0);
-  }
 };
 
 /// The floor, and where the two sides of a channel stand on it: the same for every tool and at every height.
@@ -44,10 +39,6 @@ class ChannelRows {
   /// The tip's place at a share from `low` to `high` of a row; none beside the floor.
   [[nodiscard]] std::optional<TipRoom::Rest> rest(const ChannelRow& row, double share) const {
     return at(row, row.low + share * (row.high - row.low));
-  }
-  /// The same from `free_low` to `free_high`.
-  [[nodiscard]] std::optional<TipRoom::Rest> free_rest(const ChannelRow& row, double share) const {
-    return at(row, row.free_low + share * (row.free_high - row.free_low));
   }
 
  private:

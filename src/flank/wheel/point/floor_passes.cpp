@@ -87,7 +87,7 @@ bool is_needed(const Plan& plan, std::size_t row, std::size_t j) {
 int columns_of(const std::vector<ChannelRow>& rows) {
   double widest = 0.0;
   for (const ChannelRow& row : rows)
-    if (row.open) widest = std::max(widest, (row.free_high - row.free_low) * row.width);
+    if (row.open) widest = std::max(widest, (row.high - row.low) * row.width);
   return std::max(kFewestColumns, static_cast<int>(std::ceil(widest / kColumnMm)) + 1);
 }
 
@@ -99,7 +99,7 @@ AxisField field_of(const ChannelRows& channel, const TipRoom& room, const AxisFi
   parallel_for(places.size(), [&](std::size_t k) {
     const std::size_t across = k % static_cast<std::size_t>(columns), along = k / static_cast<std::size_t>(columns);
     const ChannelRow& row = rows[static_cast<std::size_t>(std::lround(static_cast<double>(along) * stride))];
-    if (row.open) places[k] = channel.free_rest(row, static_cast<double>(across) / (columns - 1));
+    if (row.open) places[k] = channel.rest(row, static_cast<double>(across) / (columns - 1));
   });
   return {room, places, count, columns, before};
 }
@@ -111,7 +111,7 @@ std::optional<Pose> pose_at(const Plan& plan, const AxisField& field, std::size_
   if (!rest || (plan.options.is_air && plan.options.is_air(rest->center))) return {};
   // Beside a blade the axis of a place nearer to the middle may have room where its own has none.
   for (int k = 0; k < kAxes; ++k) {
-    const double column = std::lerp(rows[row].free_share(share), 0.5, k / (kAxes - 1.0)) * (field.columns() - 1);
+    const double column = std::lerp(std::clamp(share, 0.0, 1.0), 0.5, k / (kAxes - 1.0)) * (field.columns() - 1);
     const Pose pose{rest->center, field.at(static_cast<double>(row) / net_stride(rows), column)};
     if (plan.room.is_free(pose)) return pose;
   }
@@ -175,8 +175,8 @@ std::vector<Strip> point_passes(const FloorChannel& channel, const RadialFunctio
   const double stride = net_stride(rows.rows());
   for (const bool at_first : {true, false}) {
     const auto axis = [&](std::size_t row, double inwards) {
-      const double share = rows.rows()[row].free_share(at_first ? inwards : 1.0 - inwards);
-      return field.at(static_cast<double>(row) / stride, share * (field.columns() - 1.0));
+      const double last = field.columns() - 1.0, column = last * inwards;
+      return field.at(static_cast<double>(row) / stride, at_first ? column : last - column);
     };
     add_strips(wall_rows({channel, rows, room, options, axis, at_first}), room, radial, options, "wall",
                at_first ? first : second, out);
