@@ -26,10 +26,9 @@ struct LeastCoverage {
   double reachable = 0.0, whole = 0.0;
 };
 
-/// judge() of flank/judge.h. Where the targets are measured to be covered by `least` and not
-/// proved to be, and the verdict hangs on that alone, the proof of coverage goes on, finer; where they are measured to be covered by
-/// less, one finer look says how much of that is proved; and where it may hang on the cells that
-/// are reachable in part, these are cut first.
+/// judge() of flank/judge.h. Where the targets are measured to be covered by `least` and not proved to be, and the verdict hangs on that
+/// alone, the proof of coverage goes on, finer. Where they are measured to be covered by less, one finer look says how much of that is
+/// proved. Where it may hang on the cells that are reachable in part, these are cut first.
 [[nodiscard]] VerifyReport judge_faces(const Tool& tool, const Path& path, const std::vector<JudgedFace>& faces,
                                        const JudgeOptions& options, const LeastCoverage& least = {});
 

@@ -66,8 +66,8 @@ Path passes_along(WheelWork& work, const std::string& kind, const Names& faces, 
   return out;
 }
 
-/// What is left of the hub a half pitch to either side of the sector's first blade: copies do the rest of it. Passes along a channel are
-/// short and many where it ends soon behind a blade, and those round the axis are not.
+/// Along what is left of the hub a half pitch to either side of the sector's first blade, as copies do the rest of it; along all that is
+/// left where the blades differ. Passes along a channel are short and many where it ends soon behind a blade, and these are not.
 Path passes_on_hub(WheelWork& work) {
   std::vector<Strip> strips = work.finish.strips;
   const WheelAxis& axis = work.roles.axis;
