@@ -95,6 +95,9 @@ class SweptVolume {
     double radius = 0.0, off = 0.0;
   };
   [[nodiscard]] BallWay ball_way(const SweptDistance& place) const;
+  /// The same over as many poses of its pass as lie within `reach_mm` of the place and keep `off` below `most_off_mm`, its own segment in
+  /// any case.
+  [[nodiscard]] BallWay ball_way(const SweptDistance& place, double reach_mm, double most_off_mm) const;
 
  private:
   struct Data;

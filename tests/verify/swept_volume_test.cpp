@@ -130,6 +130,27 @@ TEST(SweptVolume, ABallGoesStraightFromPoseToPoseUpToItsOffset) {
   EXPECT_GT(most_off, 0.1) << "directions that turn by little prove nothing of it";
 }
 
+TEST(SweptVolume, ABallGoesAlmostStraightOverSeveralPoses) {
+  Random random(6);
+  Strip strip;
+  for (int i = 0; i <= 60; ++i)
+    strip.poses.push_back({Vec3(0.4 * i, 0.002 * i * i + random.uniform(0, 2e-3), 0.0), Vec3(0.0, 1e-3 * i, 1.0).normalized()});
+  const SweptVolume volume(cylinder(1.5, 30.0), Path{{strip}});
+  constexpr double kReach = 1.6, kOff = 0.02;
+  double longest = 0.0;
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 x(random.uniform(1, 22), random.uniform(-4, 4), random.uniform(-2, 30));
+    const SweptVolume::BallWay way = volume.ball_way(volume.distance(x), kReach, kOff);
+    longest = std::max(longest, way.along.norm());
+    EXPECT_LE(way.off, kOff);
+    const Vec3 n = Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)).normalized();
+    const Vec3 at = way.from + random.uniform(0, 1) * way.along + way.radius * n;
+    ASSERT_LE(volume.distance(at).f, way.off + kExactMm);
+  }
+  EXPECT_GT(longest, 5 * 0.4);
+  EXPECT_LT(longest, 2 * kReach + 3 * 0.4);
+}
+
 TEST(SweptVolume, TurningAboutItsTipSweepsAFan) {
   Strip strip;
   for (int i = 0; i <= 6; ++i) {

@@ -129,6 +129,28 @@ TEST(CoverSearch, PassesThatAreNarrowerThanACellProveItTogether) {
   EXPECT_GE(c.proved, 0.95);  // 0.81 where each cell only asks the pass of the one before
 }
 
+/// Passes of a tip of radius 2 beside each other, whose crest is nearly as high as the tolerance: no ball alone is near it from both
+/// sides, and cells would have to be cut until they are as narrow as what is missing.
+TEST(CoverSearch, ACrestIsProvedByBothPassesBesideIt) {
+  Tool tool;
+  tool.radial = RadialFunction(ToolFamily::kCone, 8.0, Eigen::Vector2d(2.0, 0.1));
+  Path path;
+  const double apart = 2.0 * std::sqrt(0.95 * kTolerance * (4.0 - 0.95 * kTolerance));  // of crests of 0.95 of the tolerance
+  for (int pass = 0; pass <= 20; ++pass) {
+    Strip& strip = path.strips.emplace_back();
+    for (int k = 0; k <= 44; ++k)
+      strip.poses.push_back({Vec3(-1.0 + 0.5 * k, 2.0, apart * pass - 0.05), Vec3(0.2, 1.0, 0.0).normalized()});
+  }
+  const SweptVolume volume(tool, path);
+  const Face face = test::plane_face("F1", 20.0, 10.0);
+  const FaceSamples coarse = sample_face(face, 0.4, true), fine = sample_face(face, 0.06, true);
+  CoverLimits limits = usual_limits(coarse);
+  limits.evaluations = 8 * coarse.points.size();
+  const Coverage c = coverage_of(volume, *make_shape(face), coarse, fine, limits);
+  EXPECT_GE(c.fine, 0.999);
+  EXPECT_GE(c.proved, 0.99);
+}
+
 /// A budget for a quarter of what the next cut makes cuts a quarter of the cells, and proves as much of them.
 TEST(CoverSearch, ABudgetThatEndsInsideACutIsSpentAllTheSame) {
   Random random(8);

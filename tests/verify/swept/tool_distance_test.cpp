@@ -74,6 +74,33 @@ RadialFunction peaked() {
   return RadialFunction::spline(40.0, c);
 }
 
+/// Of a group of poses that are farther from each other at one end: no sphere of any of them is nearer, and the bound is not far below.
+TEST(ToolDistance, TheBoundOfAWiderToolIsBelowAllItsSpheres) {
+  const RadialFunction shapes[] = {
+      RadialFunction::spline(60.0, (Eigen::VectorXd(7) << 3.0, 1.0, 4.0, 0.8, 3.5, 1.2, 4.0).finished()),
+      RadialFunction(ToolFamily::kCone, 38.0, Eigen::Vector2d(0.4, 0.2)),
+      RadialFunction(ToolFamily::kCylinder, 30.0, Eigen::VectorXd::Constant(1, 4.0))};
+  constexpr int kPlaces = 2000;
+  for (const RadialFunction& shape : shapes) {
+    const ToolDistance tool(shape);
+    Random random(14);
+    double loss = 0.0;
+    for (int k = 0; k < 1000; ++k) {
+      const double z = random.uniform(-30.0, 90.0), rho = random.uniform(0.0, 40.0), length = shape.axis_length();
+      const double low = random.uniform(0.0, 5.0), high = random.uniform(0.0, 60.0);
+      double least = 1e300;
+      for (int i = 0; i <= kPlaces; ++i) {
+        const double s = length * i / kPlaces, wide = shape.at(s).r + low + (high - low) * s / length;
+        least = std::min(least, std::hypot(z - s, rho) - wide);
+      }
+      const double bound = tool.least_of_wider(z, rho, low, high);
+      ASSERT_LE(bound, least) << z << ' ' << rho << ' ' << low << ' ' << high;
+      loss = std::max(loss, least - bound);
+    }
+    EXPECT_LE(loss, 0.5 * shape.largest());
+  }
+}
+
 TEST(ToolDistance, FewerMinimaAreBelowWhereTheMeridianIsFlat) {
   const RadialFunction shapes[] = {
       peaked(), RadialFunction::spline(60.0, (Eigen::VectorXd(7) << 3.0, 1.0, 4.0, 0.8, 3.5, 1.2, 4.0).finished())};

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "flank/base/assert.h"
 #include "flank/base/parallel.h"
 #include "flank/base/stopping.h"
+#include "flank/verify/proof/two_ways.h"
 
 namespace flank::internal::verify {
 namespace {
@@ -15,13 +17,15 @@ namespace {
 constexpr std::size_t kBlock = 128;       ///< cells per task. Fixed, so that the number of threads changes nothing
 constexpr std::size_t kLot = 4096;        ///< cells of samples that are cut together
 constexpr double kRounding = 1.0 + 1e-9;  ///< sums of areas are not too small by more
+constexpr double kOffShare = 0.02;        ///< of the tolerance: what a ball's way may be off its chord, over several poses
 constexpr int kDeepest = 8;               ///< times that the cell of a sample is cut at most
 
 /// A part of a sample's cell that is still open.
 struct Open {
   Cell cell;
   std::size_t sample = 0;
-  SweptDistance near;  ///< where the path is near it, about
+  SweptDistance near;   ///< where the path is near it, about
+  SweptDistance other;  ///< where it is near what that ball is not near to, about; strip -1: not looked for
 };
 
 /// Area of a sample's cell that is given up, mm^2.
@@ -30,24 +34,24 @@ struct Lost {
   double area = 0.0;
 };
 
-/// Parts whose nearest place of the path is looked for anew, up to a horizon each.
+/// Places of the path that are nearest to points, looked for up to a horizon each.
 class Asked {
  public:
-  void add(Open& part, const Vec3& point, double horizon) {
-    parts_.push_back(&part), points_.push_back(point), horizons_.push_back(horizon);
+  void add(SweptDistance& place, const Vec3& point, double horizon) {
+    places_.push_back(&place), points_.push_back(point), horizons_.push_back(horizon);
   }
   /// Strip -1: nothing is as near as that.
   void answer(const SweptVolume& volume) {
-    std::vector<SweptDistance> found(parts_.size());
+    std::vector<SweptDistance> found(places_.size());
     volume.distances(points_, horizons_, found);
     for (std::size_t k = 0; k < found.size(); ++k) {
-      parts_[k]->near = found[k];
-      if (found[k].f > horizons_[k]) parts_[k]->near.strip = -1;
+      *places_[k] = found[k];
+      if (found[k].f > horizons_[k]) places_[k]->strip = -1;
     }
   }
 
  private:
-  std::vector<Open*> parts_;
+  std::vector<SweptDistance*> places_;
   std::vector<Vec3> points_;
   std::vector<double> horizons_;
 };
@@ -94,6 +98,7 @@ class CoverSearch {
     std::vector<Open> open;
     std::vector<Lost> lost;
     std::vector<Vec3> hull;
+    std::vector<double> sides;
     std::size_t evaluations = 0;
   };
 
@@ -125,30 +130,76 @@ class CoverSearch {
           block.lost.push_back({i, samples_.areas[i]});
           continue;
         }
-        Open open{shape_.cell_of(samples_.cells[i]), i, d};
-        if (near_all_of(open, block)) continue;
-        (void)shape_.look(open.cell);  // what splitting needs
-        block.open.push_back(open);
+        block.open.push_back({shape_.cell_of(samples_.cells[i]), i, d, {}});
       }
+      settle(block);
+      for (Open& open : block.open) (void)shape_.look(open.cell);  // what splitting needs
     });
   }
 
-  /// Whether a ball, as it goes from one pose to the next, leaves no place of the cell farther away than the tolerance: the distance from
-  /// its way is convex, so the corners of a hull tell.
-  [[nodiscard]] bool near_all_of(const Open& open, Block& block) const {
-    if (!shape_.hull(open.cell, block.hull)) return false;
+  /// Leaves in a block the cells that no ball, as it goes from one pose to the next, is near all of, nor two of them together: the
+  /// distance from a straight way is convex, so the corners of a hull tell. The others are looked for together, as neighbours share most
+  /// of their search.
+  void settle(Block& block) const {
+    std::vector<char> settled(block.open.size(), 0);
+    std::vector<std::size_t> doubted;
+    Asked asked;
+    for (std::size_t k = 0; k < block.open.size(); ++k) {
+      Open& open = block.open[k];
+      const std::optional<Vec3> missed = missed_by_near(open, block);
+      if (!missed && !block.hull.empty()) settled[k] = 1;
+      // Its own middle is not finished, or its own hull is not known.
+      if (!missed || open.near.f > limits_.tolerance_mm) continue;
+      if (open.other.strip >= 0) open.other = volume_.distance_from(*missed, open.other);
+      if (open.other.strip < 0 || open.other.f > limits_.tolerance_mm)
+        asked.add(open.other, *missed, limits_.tolerance_mm);
+      doubted.push_back(k);
+    }
+    asked.answer(volume_);
+    for (const std::size_t k : doubted)
+      if (block.open[k].other.strip >= 0 && near_together(block.open[k], block)) settled[k] = 1;
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < block.open.size(); ++k)
+      if (settled[k] == 0) block.open[kept++] = block.open[k];
+    block.open.resize(kept);
+  }
+
+  /// The place of a cell's hull that its ball is farthest from being near to; none where it is near all of them, or no hull is known,
+  /// which is empty then.
+  [[nodiscard]] std::optional<Vec3> missed_by_near(const Open& open, Block& block) const {
+    if (!shape_.hull(open.cell, block.hull)) {
+      block.hull.clear();
+      return {};
+    }
     const SweptVolume::Ball ball = volume_.ball(open.near);
     const double reach = ball.radius + limits_.tolerance_mm;
     if (std::all_of(block.hull.begin(), block.hull.end(),
                     [&](const Vec3& p) { return (p - ball.center).norm() <= reach; }))
-      return true;
-    const SweptVolume::BallWay way = volume_.ball_way(open.near);
-    const double most = reach - way.off, squared = way.along.squaredNorm();
-    return std::all_of(block.hull.begin(), block.hull.end(), [&](const Vec3& p) {
-      const Vec3 d = p - way.from;
-      const double t = squared > 0.0 ? std::clamp(d.dot(way.along) / squared, 0.0, 1.0) : 0.0;
-      return (d - t * way.along).norm() <= most;
-    });
+      return {};
+    const Near near = near_of(open.near, block);
+    std::optional<Vec3> missed;
+    double most = 0.0;
+    for (const Vec3& p : block.hull)
+      if (const double beyond = near.beyond(p); beyond > most) most = beyond, missed = p;
+    return missed;
+  }
+
+  [[nodiscard]] bool near_together(const Open& open, Block& block) const {
+    if (!shape_.hull(open.cell, block.hull)) return false;
+    block.sides.resize(block.hull.size());
+    return hold_together(block.hull, near_of(open.near, block), near_of(open.other, block), box_of(block.hull).center(),
+                         block.sides);
+  }
+
+  /// What the ball of a place reaches on its way along the cell whose hull is the block's.
+  [[nodiscard]] Near near_of(const SweptDistance& place, const Block& block) const {
+    return {volume_.ball_way(place, box_of(block.hull).diagonal(), kOffShare * limits_.tolerance_mm), limits_.tolerance_mm};
+  }
+
+  [[nodiscard]] static Box3 box_of(const std::vector<Vec3>& hull) {
+    Box3 box;
+    for (const Vec3& p : hull) box.add(p);
+    return box;
   }
 
   struct Cut {
@@ -165,7 +216,7 @@ class CoverSearch {
       cells.clear();
       shape_.split(o.cell, cells);
       if (out.parts.size() + cells.size() > most) break;
-      for (const Cell& cell : cells) out.parts.push_back({cell, o.sample, o.near});
+      for (const Cell& cell : cells) out.parts.push_back({cell, o.sample, o.near, o.other});
     }
     return out;
   }
@@ -187,16 +238,17 @@ class CoverSearch {
       if (probe.empty) continue;
       there.push_back(&part);
       part.near = volume_.distance_from(probe.point, part.near);
-      if (part.near.f > limits_.tolerance_mm) asked.add(part, probe.point, limits_.tolerance_mm + probe.reach);
+      if (part.near.f > limits_.tolerance_mm) asked.add(part.near, probe.point, limits_.tolerance_mm + probe.reach);
     }
     block.evaluations += there.size();
     asked.answer(volume_);
     for (Open* part : there) {
       if (part->near.strip < 0)
         block.lost.push_back({part->sample, shape_.area_bound(part->cell)});
-      else if (!near_all_of(*part, block))
+      else
         block.open.push_back(*part);
     }
+    settle(block);
   }
 
   /// Whether the cells' area is too small to matter. Mostly a few of them tell that it is not.

@@ -13,7 +13,7 @@ namespace flank::internal::verify {
 struct CoverLimits {
   double tolerance_mm = 0.01;   ///< what is to be proved: f is at most this
   double gap_mm2 = 0.0;         ///< cells are cut until no more area than this is open
-  std::size_t evaluations = 0;  ///< balls looked for, at most about so many
+  std::size_t evaluations = 0;  ///< parts of cells looked at, at most about so many
   std::size_t cells = 0;        ///< held at once, at most about so many
 };
 

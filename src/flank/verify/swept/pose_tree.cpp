@@ -202,7 +202,9 @@ class Builder {
     const double squares = node.half_tip.squaredNorm() + half_high.squaredNorm();
     const double y =
         squares > 0.0 ? std::clamp((low.dot(node.half_tip) + high.dot(half_high)) / squares, -1.0, 1.0) : 0.0;
-    node.reach = std::max(node.reach, std::max(low.norm(), high.norm()) + slack);
+    node.low_reach = std::max(node.low_reach, low.norm() + slack);
+    node.high_reach = std::max(node.high_reach, high.norm() + slack);
+    node.reach = std::max(node.low_reach, node.high_reach);
     node.bend = std::max(node.bend, std::max((low - y * node.half_tip).norm(), (high - y * half_high).norm()) + slack);
   }
 

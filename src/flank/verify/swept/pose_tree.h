@@ -10,11 +10,13 @@
 namespace flank::internal::verify {
 
 /// The poses of a node: every one takes the axis point R(s) = tip + s axis, 0 <= s <= L, to R(s) + y (half_tip + s
-/// half_turn) + e with some |y| <= 1 and |e| <= bend, and in all no farther than `reach`.
+/// half_turn) + e with some |y| <= 1 and |e| <= bend, and in all no farther than `reach`, nor than what goes
+/// evenly from `low_reach` at the tip to `high_reach` at the upper end: passes of a tip are far nearer to each other there.
 struct PoseNode {
   Vec3 tip, axis;
   Vec3 half_tip = Vec3::Zero(), half_turn = Vec3::Zero();
   double bend = 0.0, reach = 0.0, turn = 0.0;  ///< turn = |half_turn|
+  double low_reach = 0.0, high_reach = 0.0;
   int second = -1;                     ///< index of the second child (the first one follows its parent); -1: a leaf
   int first_piece = 0, end_piece = 0;  ///< the node's pieces; none of a group of parts of several strips
 };

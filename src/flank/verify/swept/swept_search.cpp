@@ -76,12 +76,10 @@ double SweptSearch::bound(const PoseNode& node) const {
   const Vec3 d = x_ - node.tip;
   const double z = d.dot(node.axis);
   const double squared_rho = std::max(0.0, d.squaredNorm() - z * z);
-  // No sphere of these poses comes near enough: that needs neither a root nor the grid.
-  const RadialTable& radial = tool_.radial();
-  const double past = z - std::clamp(z, 0.0, radial.length());
-  const double near = best_.f + kSlackMm + node.reach + radial.largest_radius() + radial.step();
-  if (near > 0.0 && squared_rho + past * past > near * near) return best_.f;
   const double rho = std::sqrt(squared_rho);
+  // Mostly no sphere of these poses comes near enough, and that needs no grid.
+  const double wide = tool_.least_of_wider(z, rho, node.low_reach, node.high_reach);
+  if (wide >= best_.f - kSlackMm) return wide;
   const Estimate estimate = tool_.estimate(z, rho);
   const double plain = estimate.bound - node.reach;
   if (plain >= best_.f - kSlackMm) return plain;

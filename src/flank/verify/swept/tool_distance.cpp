@@ -38,10 +38,44 @@ std::vector<double> largest_radii(const RadialTable& radial) {
   return out;
 }
 
+/// The chord of r over [first, last], lifted until r is nowhere above it; `most` becomes what it is above r at most.
+RadiusLine line_above(const RadialTable& radial, double first, double last, double& most) {
+  constexpr int kPlaces = 8;  // of a cell of the table
+  const double low = radial.radius(first), slope = (radial.radius(last) - low) / (last - first);
+  const int count = std::max(2, static_cast<int>(std::ceil(kPlaces * (last - first) / radial.step())));
+  double above = 0.0, below = 0.0;
+  for (int k = 0; k <= count; ++k) {
+    const double s = first + (last - first) * k / count, off = radial.radius(s) - low - slope * (s - first);
+    above = std::max(above, off), below = std::max(below, -off);
+  }
+  // |r'| < 1: between two places, at most half a step from either.
+  const double lift = above + 0.5 * (1.0 + std::abs(slope)) * (last - first) / count;
+  most = lift + below;
+  return {first, last, low - slope * first + lift, slope};
+}
+
 }  // namespace
+
+std::vector<RadiusLine> radius_lines(const RadialTable& radial) {
+  constexpr double kClose = 0.1;
+  constexpr int kMost = 8;
+  std::vector<RadiusLine> lines;
+  for (int count = 1; count <= kMost; count *= 2) {
+    double most = 0.0;
+    lines.clear();
+    for (int k = 0; k < count; ++k) {
+      double here = 0.0;
+      lines.push_back(line_above(radial, radial.length() * k / count, radial.length() * (k + 1) / count, here));
+      most = std::max(most, here);
+    }
+    if (most <= kClose * radial.least_radius()) break;
+  }
+  return lines;
+}
 
 ToolDistance::ToolDistance(const RadialFunction& radial)
     : radial_(radial),
+      lines_(radius_lines(radial_)),
       bends_(focal_curvatures(radial_)),
       radii_(largest_radii(radial_)),
       focal_curvature_(bends_.over_all()),

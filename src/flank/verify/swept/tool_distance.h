@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "flank/verify/swept/radial_table.h"
@@ -18,6 +19,22 @@ struct NearestSphere {
   double s = 0.0;  ///< centre of the sphere on the axis, mm, in [0, L]
 };
 
+/// A straight line at or above r(s) between two places of the axis.
+struct RadiusLine {
+  double first = 0.0, last = 0.0;  ///< mm
+  double at_zero = 0.0, per_mm = 0.0;
+
+  /// The least of sqrt((z - s)^2 + rho^2) less the line and less `more` + `more_per_mm` s: convex in s.
+  [[nodiscard]] double least(double z, double rho, double more, double more_per_mm) const {
+    const double slope = per_mm + more_per_mm, squared = 1.0 - slope * slope;
+    double s = slope > 0.0 ? last : first;
+    if (squared > 0.0) s = std::clamp(z + rho * slope / std::sqrt(squared), first, last);
+    return std::sqrt((z - s) * (z - s) + rho * rho) - at_zero - more - slope * s;
+  }
+};
+/// Few of them, as close to r as a small share of the smallest radius where that takes no more than eight.
+[[nodiscard]] std::vector<RadiusLine> radius_lines(const RadialTable& radial);
+
 /// z and rho >= 0 are the point's place in the tool's own frame: along the axis from the tip, and from the axis
 /// (plane_point). Immutable after construction, so many threads may ask at once.
 class ToolDistance {
@@ -29,6 +46,13 @@ class ToolDistance {
   [[nodiscard]] Estimate estimate(double z, double rho) const {
     const ToolGrid* grid = grid_around(z, rho);
     return grid != nullptr ? grid->interpolate(z, rho) : beyond_grids(z, rho);
+  }
+  /// Below the distance to the tool with all radii larger by what goes evenly from `low` at the tip to `high` at the upper end, mm.
+  [[nodiscard]] double least_of_wider(double z, double rho, double low, double high) const {
+    const double per_mm = (high - low) / radial_.length();
+    double least = 1e300;
+    for (const RadiusLine& line : lines_) least = std::min(least, line.least(z, rho, low, per_mm));
+    return least;
   }
   /// The global minimum over s, to about 1e-12 mm: by the grid and Newton's method if one minimum is certain, else by
   /// search().
@@ -68,6 +92,7 @@ class ToolDistance {
   [[nodiscard]] Estimate beyond_grids(double z, double rho) const;
 
   RadialTable radial_;
+  std::vector<RadiusLine> lines_;  ///< above r, one after the other from the tip to the upper end
   RangeMaximum bends_, radii_;  ///< focal curvature and radius in each cell of the radial table
   double focal_curvature_ = 0.0;
   std::array<ToolGrid, kToolGrids> grids_;
