@@ -134,7 +134,8 @@ TEST(SweptVolume, ABallGoesAlmostStraightOverSeveralPoses) {
   Random random(6);
   Strip strip;
   for (int i = 0; i <= 60; ++i)
-    strip.poses.push_back({Vec3(0.4 * i, 0.002 * i * i + random.uniform(0, 2e-3), 0.0), Vec3(0.0, 1e-3 * i, 1.0).normalized()});
+    strip.poses.push_back(
+        {Vec3(0.4 * i, 0.002 * i * i + random.uniform(0, 2e-3), 0.0), Vec3(0.0, 1e-3 * i, 1.0).normalized()});
   const SweptVolume volume(cylinder(1.5, 30.0), Path{{strip}});
   constexpr double kReach = 1.6, kOff = 0.02;
   double longest = 0.0;
