@@ -95,6 +95,14 @@ class WayAlong {
   std::size_t count_ = 2;
 };
 
+/// Strips [0, count).
+Path first_strips(const Path& path, std::size_t count) {
+  if (count == path.strips.size()) return path;
+  Path out;
+  out.strips.assign(path.strips.begin(), path.strips.begin() + static_cast<std::ptrdiff_t>(count));
+  return out;
+}
+
 double piece_reach(const RadialTable& radial) {
   return std::max(kPieceReachRadii * radial.least_radius(), kPieceReachLengths * radial.length());
 }
@@ -102,33 +110,84 @@ double piece_reach(const RadialTable& radial) {
 }  // namespace
 
 SweptVolume::Data::Data(const Tool& t, std::shared_ptr<const ToolDistance> of_tool, const Path& path)
-    : tool(t), distance(std::move(of_tool)), tree(path, t.radial.axis_length(), piece_reach(distance->radial())) {}
+    : tool(t),
+      distance(std::move(of_tool)),
+      copies(find_copies(path, t.radial.axis_length())),
+      tree(first_strips(path, copies.strips), t.radial.axis_length(), piece_reach(distance->radial())) {}
 
-SweptDistance SweptVolume::Data::at(const Vec3& x, const SweptPlace& place) const {
+const std::vector<std::pair<double, int>>& SweptVolume::Data::near_copies(const Vec3& x, double horizon) const {
+  thread_local std::vector<std::pair<double, int>> found;
+  found.clear();
+  const int count = static_cast<int>(copies.turns.size());
+  for (int copy = 0; copy < count; ++copy) {
+    const Vec3 y = turned_back(x, copy);
+    const double least = count > 1 ? SweptSearch(*distance, tree, y).least() : -1e300;
+    if (least < horizon) found.emplace_back(least, copy);
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+void SweptVolume::Data::search_copy(const Vec3& x, int copy, std::span<const int> nodes, const CopyPlace& near,
+                                    CopyPlace& best) const {
+  const Vec3 y = turned_back(x, copy);
+  SweptSearch search(*distance, tree, y);
+  const SweptPlace found = search.run(best.place.f, copy == near.copy ? near.place : SweptPlace{}, nodes);
+  if (found.piece >= 0) best = {copy, found};
+}
+
+CopyPlace SweptVolume::Data::nearest(const Vec3& x, double horizon, const CopyPlace& near,
+                                     const std::vector<CopyRoots>& roots) const {
+  CopyPlace best{0, {horizon, -1, 0.0, 0.0}};
+  for (const CopyRoots& start : roots)
+    if (start.least < best.place.f) search_copy(x, start.copy, start.nodes, near, best);
+  return best;
+}
+
+CopyPlace SweptVolume::Data::nearest(const Vec3& x, double horizon, const CopyPlace& near) const {
+  constexpr std::array<int, 1> kRoot{0};
+  CopyPlace best{0, {horizon, -1, 0.0, 0.0}};
+  for (const auto& [least, copy] : near_copies(x, horizon))
+    if (least < best.place.f) search_copy(x, copy, kRoot, near, best);
+  return best;
+}
+
+SweptDistance SweptVolume::Data::at(const Vec3& x, const CopyPlace& found) const {
+  const SweptPlace& place = found.place;
   if (place.piece < 0) return {place.f, -1, 0.0, 0.0};
   const Segment& g = tree.segment_of(place.piece);
-  const double f = (x - g.at(place.tau).at(place.s)).norm() - tool.radial.at(place.s).r;
-  return {f, g.strip, g.pose + place.tau, place.s};
+  const double f = (turned_back(x, found.copy) - g.at(place.tau).at(place.s)).norm() - tool.radial.at(place.s).r;
+  return {f, found.copy * static_cast<int>(copies.strips) + g.strip, g.pose + place.tau, place.s};
 }
 
 // f has slope 1, by x and for every ball.
-std::vector<int> SweptVolume::Data::roots(const Vec3& x, double spread, double horizon, const SweptPlace& near) const {
+std::vector<CopyRoots> SweptVolume::Data::roots(const Vec3& x, double spread, double horizon,
+                                                const CopyPlace& near) const {
   const RadialTable& radial = distance->radial();
-  if (near.piece >= 0) {
-    const Vec3 centre = tree.segment_of(near.piece).at(near.tau).at(near.s);
-    horizon = std::min(horizon, (x - centre).norm() - radial.radius(near.s) + spread);
+  if (near.place.piece >= 0) {
+    const SweptPlace& place = near.place;
+    const Vec3 centre = tree.segment_of(place.piece).at(place.tau).at(place.s);
+    horizon = std::min(horizon, (turned_back(x, near.copy) - centre).norm() - radial.radius(place.s) + spread);
   }
-  return search(x).roots_below(horizon + spread + kRounding, kRootReach * radial.least_radius());
+  const double value = horizon + spread + kRounding;
+  std::vector<CopyRoots> out;
+  for (const auto& [least, copy] : near_copies(x, value)) out.push_back({copy, least - spread, {}});
+  for (CopyRoots& start : out) {
+    const Vec3 y = turned_back(x, start.copy);
+    start.nodes = SweptSearch(*distance, tree, y).roots_below(value, kRootReach * radial.least_radius());
+  }
+  return out;
 }
 
-SweptPlace SweptVolume::Data::find(const SweptDistance& place) const {
+CopyPlace SweptVolume::Data::find(const SweptDistance& place) const {
+  const int strips = static_cast<int>(copies.strips), strip = place.strip % strips;
   const auto before = [&](const Piece& piece) {
     const Segment& g = tree.segments[static_cast<std::size_t>(piece.segment)];
-    return g.strip < place.strip || (g.strip == place.strip && g.pose + piece.high < place.t);
+    return g.strip < strip || (g.strip == strip && g.pose + piece.high < place.t);
   };
   const auto at = std::partition_point(tree.pieces.begin(), tree.pieces.end(), before);
   const int piece = static_cast<int>(std::min(at, tree.pieces.end() - 1) - tree.pieces.begin());
-  return {place.f, piece, place.t - tree.segment_of(piece).pose, place.s};
+  return {place.strip / strips, {place.f, piece, place.t - tree.segment_of(piece).pose, place.s}};
 }
 
 SweptVolume::SweptVolume(const Tool& tool, const Path& path)
@@ -139,7 +198,7 @@ SweptVolume::~SweptVolume() = default;
 SweptVolume::SweptVolume(SweptVolume&&) noexcept = default;
 
 SweptDistance SweptVolume::distance(const Vec3& x, double horizon_mm) const {
-  return data_->at(x, data_->search(x).run(horizon_mm, {}));
+  return data_->at(x, data_->nearest(x, horizon_mm, {}));
 }
 
 void SweptVolume::distances(std::span<const Vec3> points, double horizon_mm, std::span<SweptDistance> out) const {
@@ -149,51 +208,53 @@ void SweptVolume::distances(std::span<const Vec3> points, double horizon_mm, std
 void SweptVolume::distances(std::span<const Vec3> points, std::span<const double> horizons_mm,
                             std::span<SweptDistance> out) const {
   FLANK_ASSERT(out.size() == points.size() && horizons_mm.size() == points.size());
-  SweptPlace near;
+  CopyPlace near;
   const double apart = kTogether * data_->distance->radial().least_radius();
   for (std::size_t i = 0; i < points.size();) {
     Box3 box;
     const std::size_t count = std::max<std::size_t>(1, together(points.subspan(i), apart, box));
-    std::vector<int> roots{0};
+    std::vector<CopyRoots> shared;
     if (count >= kFewest) {
       const double horizon = *std::max_element(horizons_mm.begin() + i, horizons_mm.begin() + i + count);
-      roots = data_->roots(box.center(), 0.5 * box.diagonal(), horizon, near);
+      shared = data_->roots(box.center(), 0.5 * box.diagonal(), horizon, near);
     }
     for (const std::size_t end = i + count; i < end; ++i) {
-      SweptSearch search = data_->search(points[i]);
-      const SweptPlace place = search.run(horizons_mm[i], near, roots);
-      out[i] = data_->at(points[i], place);
-      if (place.piece >= 0) near = place;
+      const CopyPlace found = count >= kFewest ? data_->nearest(points[i], horizons_mm[i], near, shared)
+                                               : data_->nearest(points[i], horizons_mm[i], near);
+      out[i] = data_->at(points[i], found);
+      if (found.place.piece >= 0) near = found;
     }
   }
 }
 
 SweptDistance SweptVolume::distance_from(const Vec3& x, const SweptDistance& near) const {
   FLANK_ASSERT(near.strip >= 0);
-  SweptSearch search = data_->search(x);
-  const SweptPlace start = data_->find(near);
-  const SweptPlace place = search.descend_from(start);
-  return data_->at(x, place.piece >= 0 ? place : start);
+  const CopyPlace start = data_->find(near);
+  const Vec3 y = data_->turned_back(x, start.copy);
+  const SweptPlace place = SweptSearch(*data_->distance, data_->tree, y).descend_from(start.place);
+  return data_->at(x, place.piece >= 0 ? CopyPlace{start.copy, place} : start);
 }
 
 SweptVolume::Ball SweptVolume::ball(const SweptDistance& place) const {
   FLANK_ASSERT(place.strip >= 0);
-  const SweptPlace at = data_->find(place);
-  return {data_->tree.segment_of(at.piece).at(at.tau).at(at.s), data_->tool.radial.at(at.s).r};
+  const auto [copy, at] = data_->find(place);
+  return {data_->turn(copy).forth * data_->tree.segment_of(at.piece).at(at.tau).at(at.s),
+          data_->tool.radial.at(at.s).r};
 }
 
 SweptVolume::BallWay SweptVolume::ball_way(const SweptDistance& place) const { return ball_way(place, 0.0, 0.0); }
 
 SweptVolume::BallWay SweptVolume::ball_way(const SweptDistance& place, double reach_mm, double most_off_mm) const {
   FLANK_ASSERT(place.strip >= 0);
-  const SweptPlace at = data_->find(place);
+  const auto [copy, at] = data_->find(place);
   const int own = data_->tree.pieces[static_cast<std::size_t>(at.piece)].segment;
   const Vec3 here = data_->tree.segments[static_cast<std::size_t>(own)].at(at.tau).at(at.s);
   WayAlong way(data_->tree.segments, own, at.s, most_off_mm);
   for (const int step : {1, -1})
     while ((way.end(step) - here).squaredNorm() < reach_mm * reach_mm)
       if (!way.go_on(step)) break;
-  return {way.end(-1), way.end(1) - way.end(-1), data_->tool.radial.at(at.s).r, way.off()};
+  const Eigen::Isometry3d& forth = data_->turn(copy).forth;
+  return {forth * way.end(-1), forth.linear() * (way.end(1) - way.end(-1)), data_->tool.radial.at(at.s).r, way.off()};
 }
 
 }  // namespace flank

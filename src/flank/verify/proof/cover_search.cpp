@@ -17,8 +17,8 @@ namespace {
 constexpr std::size_t kBlock = 128;       ///< cells per task. Fixed, so that the number of threads changes nothing
 constexpr std::size_t kLot = 4096;        ///< cells of samples that are cut together
 constexpr double kRounding = 1.0 + 1e-9;  ///< sums of areas are not too small by more
-constexpr double kOffShare = 0.02;        ///< of the tolerance: what a ball's way may be off its chord, over several poses
-constexpr int kDeepest = 8;               ///< times that the cell of a sample is cut at most
+constexpr double kOffShare = 0.02;  ///< of the tolerance: what a ball's way may be off its chord, over several poses
+constexpr int kDeepest = 8;         ///< times that the cell of a sample is cut at most
 
 /// A part of a sample's cell that is still open.
 struct Open {
@@ -193,7 +193,8 @@ class CoverSearch {
 
   /// What the ball of a place reaches on its way along the cell whose hull is the block's.
   [[nodiscard]] Near near_of(const SweptDistance& place, const Block& block) const {
-    return {volume_.ball_way(place, box_of(block.hull).diagonal(), kOffShare * limits_.tolerance_mm), limits_.tolerance_mm};
+    return {volume_.ball_way(place, box_of(block.hull).diagonal(), kOffShare * limits_.tolerance_mm),
+            limits_.tolerance_mm};
   }
 
   [[nodiscard]] static Box3 box_of(const std::vector<Vec3>& hull) {

@@ -215,6 +215,13 @@ void SweptSearch::start_at(const SweptPlace& near) {
   if (descend(segment(p), tool_.radial(), x_, p.low, p.high, found)) follow(near.piece, found);
 }
 
+double SweptSearch::least() const {
+  if (tree_.nodes.empty()) return 1e300;
+  const PoseNode& node = tree_.nodes.front();
+  const PlanePoint at = plane_point(node.tip, node.axis, x_);
+  return tool_.least_of_wider(at.z, at.rho, node.low_reach, node.high_reach);
+}
+
 SweptPlace SweptSearch::descend_from(const SweptPlace& near) {
   best_ = {1e300, -1, 0.0, 0.0};
   start_at(near);

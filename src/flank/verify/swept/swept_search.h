@@ -32,6 +32,8 @@ class SweptSearch {
   /// about points near x, whose horizons are lower than that by their distance from x, begin. The root
   /// of all where more are needed than there may be.
   [[nodiscard]] std::vector<int> roots_below(double value, double reach);
+  /// No f is lower, told without opening a node.
+  [[nodiscard]] double least() const;
   /// What descent from `near` finds: a local minimum, never below the least f; piece -1 where it does not settle.
   [[nodiscard]] SweptPlace descend_from(const SweptPlace& near);
 

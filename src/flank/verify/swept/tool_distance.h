@@ -93,7 +93,7 @@ class ToolDistance {
 
   RadialTable radial_;
   std::vector<RadiusLine> lines_;  ///< above r, one after the other from the tip to the upper end
-  RangeMaximum bends_, radii_;  ///< focal curvature and radius in each cell of the radial table
+  RangeMaximum bends_, radii_;     ///< focal curvature and radius in each cell of the radial table
   double focal_curvature_ = 0.0;
   std::array<ToolGrid, kToolGrids> grids_;
 };
