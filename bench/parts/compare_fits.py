@@ -2,6 +2,7 @@
 """Fits faces of parts that no method was made on, and compares what two programs make of them.
 
 usage: compare_fits.py run FLANK OUT.json [--list zoo] [--only NAME] [--jobs 2] [--parts FOLDER] [--results FOLDER] [--timeout 600]
+                       [--option=--shank=none]...
        compare_fits.py show A.json
        compare_fits.py diff BEFORE.json AFTER.json
 
@@ -55,7 +56,7 @@ def faces(name, only):
             yield words
 
 
-def fit(flank, words, parts, results, timeout):
+def fit(flank, words, parts, results, timeout, more):
     name, file, face, tolerance, *options = words
     data = pathlib.Path(os.environ.get("FLANK_DATA", HERE / "../../../shared/data"))
     part = (parts if name == "made" else data) / file
@@ -64,7 +65,7 @@ def fit(flank, words, parts, results, timeout):
         return row | {"missing": True}
     out = results / "-".join([pathlib.Path(file).stem, face, tolerance, *options]).replace(" ", "")
     log = results / (out.name + ".log")
-    command = [flank, "fit", part, "--face", face, "--tolerance", tolerance, "--threads", "1", "--quiet", *options, "-o", out]
+    command = [flank, "fit", part, "--face", face, "--tolerance", tolerance, "--threads", "1", "--quiet", *options, *more, "-o", out]
     with open(log, "w") as text:
         child = subprocess.Popen(["timeout", "-s", "INT", "-k", "60", str(timeout), *command], stdout=text, stderr=text)
         _, status, usage = os.wait4(child.pid, 0)
@@ -84,7 +85,7 @@ def run(arguments):
     rows, results = [], pathlib.Path(arguments.results or tempfile.mkdtemp())
     results.mkdir(parents=True, exist_ok=True)
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-        tasks = [pool.submit(fit, arguments.flank, words, arguments.parts, results, arguments.timeout)
+        tasks = [pool.submit(fit, arguments.flank, words, arguments.parts, results, arguments.timeout, arguments.option)
                  for words in faces(arguments.list, arguments.only)]
         for task in tasks:
             rows.append(task.result())
@@ -148,6 +149,7 @@ def main():
     one.add_argument("--parts", type=pathlib.Path, default=pathlib.Path("build/parts"))
     one.add_argument("--results")
     one.add_argument("--timeout", type=int, default=900)
+    one.add_argument("--option", action="append", default=[], help="for every fit, as --option=--shank=none; diff tells what it does")
     commands.add_parser("show").add_argument("rows", type=pathlib.Path)
     two = commands.add_parser("diff")
     two.add_argument("before", type=pathlib.Path)

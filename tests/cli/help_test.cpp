@@ -1,6 +1,8 @@
 // Help: 80 columns, the usual options first, every way to ask for it; and the nearest word for one that is not known.
 #include "help.h"
 
+#include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "cli/cli_fixture.h"
@@ -67,6 +69,22 @@ TEST_F(Help, ShowsTheUsualOptionsFirstAndAllOfThemOnRequest) {
   for (const char* option : {"--tolerance", "--face", "--holder", "--shank-diameter", "--output"})
     EXPECT_NE(fit.find(option), std::string::npos) << option;
   EXPECT_EQ(fit.find("--reach-radius"), std::string::npos);
+}
+
+TEST_F(Help, ItsExamplesNameMaterialsThatThereAre) {
+  std::ifstream rows(std::string(FLANK_SOURCE_DIR) + "/share/materials/materials.toml");
+  std::string known(std::istreambuf_iterator<char>(rows), {}), option = "--material ";
+  int found = 0;
+  for (const std::string& name : commands()) {
+    std::string text = help({name, "--help-all"});
+    text.erase(0, std::min(text.find("Example"), text.size()));
+    for (std::size_t at = text.find(option); at != std::string::npos; at = text.find(option, at + 1), ++found) {
+      const std::size_t first = at + option.size();
+      const std::string material = text.substr(first, text.find_first_of(" \n", first) - first);
+      EXPECT_NE(known.find("name = \"" + material + "\""), std::string::npos) << name << " " << material;
+    }
+  }
+  EXPECT_GT(found, 0);
 }
 
 TEST_F(Help, IsACommandToo) {
