@@ -52,10 +52,8 @@ std::function<bool(const Vec3&)> finished_by(const WheelWork& work, const std::v
   return [finished](const Vec3& x) { return (*finished)(x); };
 }
 
-Path passes_along(WheelWork& work, const std::string& kind, const Names& faces, bool only_rest) {
+Path passes_along(WheelWork& work, const std::string& kind, const Names& faces, const PointOptions& options) {
   const FloorChannel place = around(work);
-  PointOptions options = work.point_options();
-  if (only_rest) options.is_finished = finished_by(work, work.finish.strips);
   Path out;
   for (const std::string& name : faces) {
     const std::optional<Face> face = work.targets.face(name);
@@ -64,6 +62,13 @@ Path passes_along(WheelWork& work, const std::string& kind, const Names& faces, 
       out.strips.push_back(std::move(strip));
   }
   return out;
+}
+
+/// Only where operations before have left something.
+Path passes_on_rest(WheelWork& work, const std::string& kind, const Names& faces) {
+  PointOptions options = work.point_options();
+  options.is_finished = finished_by(work, work.finish.strips);
+  return passes_along(work, kind, faces, options);
 }
 
 /// Along what is left of the hub a half pitch to either side of the sector's first blade, as copies do the rest of it; along all that is
@@ -83,19 +88,16 @@ Path passes_on_hub(WheelWork& work) {
                          pitch](const Vec3& x) {
     return (!all && !is_within_pitch(x, axis, middle, pitch)) || finished(x);
   };
-  const FloorChannel place = around(work);
-  Path out;
-  for (const std::string& name : work.roles.hub)
-    if (const std::optional<Face> face = work.targets.face(name))
-      for (Strip& strip : face_passes(*face, place, work.tool->radial, options, "rest", name))
-        out.strips.push_back(std::move(strip));
-  return out;
+  // Of a mesh there is no hub that passes could follow.
+  Names hub = work.roles.hub;
+  std::erase_if(hub, [&](const std::string& name) { return !work.targets.face(name); });
+  return passes_along(work, "rest", hub, options);
 }
 
-constexpr const char *kNoPass = "no pass has room", *kRest = "rest";
+constexpr const char* kNoPass = "no pass has room";
 
 WheelOperation on_faces(WheelWork& work, const std::string& id, const std::string& kind, const FacesOfBlade& which,
-                        bool only_rest) {
+                        const std::function<Path(const Names&)>& passes) {
   WheelOperation operation{.id = id, .kind = kind, .folder = "", .faces = faces_of(work.sector.blades, which)};
   if (!work.tool || operation.faces.empty()) {
     operation.problem = work.tool ? "no blade has such a face" : "no tool: none was found for the sides of the blades";
@@ -110,10 +112,7 @@ WheelOperation on_faces(WheelWork& work, const std::string& id, const std::strin
   const std::string decides = kind + path_to_json(work.finish) + tool_to_json(*work.tool) +
                               fmt::format("{} {}", work.job.tolerance_mm, work.job.least_coverage);
   operation = perform(work, operation, decides, [&] {
-    Path path = passes_along(work, kind, faces_of(blades, which), only_rest);
-    if (kind == kRest)
-      for (Strip& strip : passes_on_hub(work).strips) path.strips.push_back(std::move(strip));
-    path = guarded(work, path);
+    Path path = guarded(work, passes(faces_of(blades, which)));
     if (path.strips.empty()) throw InputError(kNoPass);
     return judged_path(work, operation.faces, std::move(path), kDraftShare * work.job.least_coverage, Care::kDraft);
   });
@@ -136,17 +135,24 @@ Names fillets_of(const WheelBlade& blade) {
 }  // namespace
 
 std::optional<WheelOperation> fillet_operation(WheelWork& work) {
-  return unless_nothing(on_faces(work, "40", "fillet", fillets_of, true));
+  return unless_nothing(on_faces(work, "40", "fillet", fillets_of,
+                                 [&](const Names& faces) { return passes_on_rest(work, "fillet", faces); }));
 }
 
 WheelOperation edge_operation(WheelWork& work) {
   return on_faces(
-      work, "50", "edge", [](const WheelBlade& blade) { return blade.edges; }, false);
+      work, "50", "edge", [](const WheelBlade& blade) { return blade.edges; },
+      [&](const Names& faces) { return passes_along(work, "edge", faces, work.point_options()); });
 }
 
 std::optional<WheelOperation> rest_operation(WheelWork& work) {
   return unless_nothing(on_faces(
-      work, "60", kRest, [](const WheelBlade& blade) { return blade.sides(); }, true));
+      work, "60", "rest", [](const WheelBlade& blade) { return blade.sides(); },
+      [&](const Names& faces) {
+        Path path = passes_on_rest(work, "rest", faces);
+        for (Strip& strip : passes_on_hub(work).strips) path.strips.push_back(std::move(strip));
+        return path;
+      }));
 }
 
 }  // namespace flank::internal
