@@ -80,7 +80,8 @@ Subcommand add_post(CLI::App& parser) {
       "blade.ngc --machine "
       "linuxcnc-xyzac-trt\nSeveral operations, each with its own tool: flank post rough finish --machine "
       "linuxcnc-xyzac-trt "
-      "--material steel-c45 --flutes 4 -o part.nc && flank verify rough finish --nc part.nc --machine linuxcnc-xyzac-trt");
+      "--material steel-c45 --flutes 4 -o part.nc && flank verify rough finish --nc part.nc --machine "
+      "linuxcnc-xyzac-trt");
   const auto run = [job, output](const CommonOptions& common) {
     std::vector<std::string> folders{job->folder};
     folders.insert(folders.end(), job->more_folders.begin(), job->more_folders.end());

@@ -135,7 +135,8 @@ TEST(CoverSearch, ACrestIsProvedByBothPassesBesideIt) {
   Tool tool;
   tool.radial = RadialFunction(ToolFamily::kCone, 8.0, Eigen::Vector2d(2.0, 0.1));
   Path path;
-  const double apart = 2.0 * std::sqrt(0.95 * kTolerance * (4.0 - 0.95 * kTolerance));  // of crests of 0.95 of the tolerance
+  const double apart =
+      2.0 * std::sqrt(0.95 * kTolerance * (4.0 - 0.95 * kTolerance));  // of crests of 0.95 of the tolerance
   for (int pass = 0; pass <= 20; ++pass) {
     Strip& strip = path.strips.emplace_back();
     for (int k = 0; k <= 44; ++k)
