@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "flank/base/assert.h"
+#include "flank/verify/swept/chord_way.h"
 
 namespace flank {
 namespace {
@@ -35,65 +36,6 @@ std::size_t together(std::span<const Vec3> points, double apart, Box3& box) {
   }
   return count;
 }
-
-/// How far the centre at s is beside the straight way between the ends of its segment. Between unit vectors the chord has the directions
-/// of the arc, at the same tau, and is shorter than 1 by c^2 / 4 at most; what their lengths lack to 1 moves tau.
-double off_chord(const Segment& g, double s) {
-  const Vec3 w1 = g.w0 + g.dw;
-  const double lengths = std::abs(g.w0.norm() - 1.0) + std::abs(w1.norm() - 1.0);
-  return s * (0.25 * (w1.normalized() - g.w0.normalized()).squaredNorm() + 2.0 * lengths);
-}
-
-/// The way of the centre at s over segments that follow each other, and the chord that stands for it. The centre passes each place of
-/// the chord at no more than the largest distance of a corner.
-class WayAlong {
- public:
-  WayAlong(const std::vector<Segment>& segments, int own, double s, double most_off)
-      : segments_(segments), first_(own), last_(own), s_(s), most_off_(most_off) {
-    const Segment& g = segments[static_cast<std::size_t>(own)];
-    begin_ = at_begin(g), end_ = at_end(g);
-    corners_[0] = begin_, corners_[1] = end_;
-  }
-  [[nodiscard]] const Vec3& end(int step) const { return step > 0 ? end_ : begin_; }
-  [[nodiscard]] double off() const { return off_; }
-
-  /// One more segment at this end (1 or -1); false, and nothing changed, where there is none or the chord would be too far off.
-  bool go_on(int step) {
-    const int next = step > 0 ? last_ + 1 : first_ - 1;
-    if (count_ == corners_.size() || next < 0 || next >= static_cast<int>(segments_.size())) return false;
-    const Segment& g = segments_[static_cast<std::size_t>(next)];
-    if (g.strip != segments_[static_cast<std::size_t>(first_)].strip) return false;
-    const Vec3 from = step > 0 ? begin_ : at_begin(g), to = step > 0 ? at_end(g) : end_;
-    const double own = std::max(own_, off_chord(g, s_)), off = own + off_corners(from, to);
-    if (off > most_off_) return false;
-    own_ = own, off_ = off, begin_ = from, end_ = to;
-    (step > 0 ? last_ : first_) = next;
-    corners_[count_++] = step > 0 ? to : from;
-    return true;
-  }
-
- private:
-  [[nodiscard]] Vec3 at_begin(const Segment& g) const { return g.a0 + s_ * g.w0.normalized(); }
-  [[nodiscard]] Vec3 at_end(const Segment& g) const { return g.a0 + g.da + s_ * (g.w0 + g.dw).normalized(); }
-  [[nodiscard]] double off_corners(const Vec3& from, const Vec3& to) const {
-    const Vec3 along = to - from;
-    const double squared = along.squaredNorm();
-    double most = 0.0;
-    for (std::size_t k = 0; k < count_; ++k) {
-      const Vec3 d = corners_[k] - from;
-      const double t = squared > 0.0 ? std::clamp(d.dot(along) / squared, 0.0, 1.0) : 0.0;
-      most = std::max(most, (d - t * along).norm());
-    }
-    return most;
-  }
-
-  const std::vector<Segment>& segments_;
-  int first_, last_;
-  double s_, most_off_, own_ = off_chord(segments_[static_cast<std::size_t>(first_)], s_), off_ = own_;
-  Vec3 begin_, end_;
-  std::array<Vec3, 16> corners_;
-  std::size_t count_ = 2;
-};
 
 /// Strips [0, count).
 Path first_strips(const Path& path, std::size_t count) {
@@ -249,7 +191,7 @@ SweptVolume::BallWay SweptVolume::ball_way(const SweptDistance& place, double re
   const auto [copy, at] = data_->find(place);
   const int own = data_->tree.pieces[static_cast<std::size_t>(at.piece)].segment;
   const Vec3 here = data_->tree.segments[static_cast<std::size_t>(own)].at(at.tau).at(at.s);
-  WayAlong way(data_->tree.segments, own, at.s, most_off_mm);
+  ChordWay way(data_->tree.segments, own, at.s, most_off_mm);
   for (const int step : {1, -1})
     while ((way.end(step) - here).squaredNorm() < reach_mm * reach_mm)
       if (!way.go_on(step)) break;

@@ -108,17 +108,23 @@ TEST(CoverSearch, MeshesAndCurvedFaces) {
   EXPECT_GT(t.proved, 0.05);
 }
 
-/// Long cells are cut in two, not in four: a budget that is just enough for that is enough.
+/// Passes of a ball of this radius along a plane of 20 x 10, side by side; `lean`: of every other one of them.
+Path passes_beside_each_other(int count, double radius, double first, double apart, double lean) {
+  Path path;
+  for (int pass = 0; pass < count; ++pass) {
+    Strip& strip = path.strips.emplace_back();
+    for (int k = 0; k <= 44; ++k)
+      strip.poses.push_back(
+          {Vec3(-1.0 + 0.5 * k, radius, first + apart * pass), Vec3(0.2, 1.0, lean * (pass % 2)).normalized()});
+  }
+  return path;
+}
+
 TEST(CoverSearch, PassesThatAreNarrowerThanACellProveItTogether) {
   // Passes of a tip of radius 0.5 over a plane, 0.2 mm apart, upright on it; the sample's cells are five of them wide.
   Tool tool;
   tool.radial = RadialFunction(ToolFamily::kCone, 8.0, Eigen::Vector2d(0.5, 0.1));
-  Path path;
-  for (int pass = 0; pass <= 50; ++pass) {
-    Strip& strip = path.strips.emplace_back();
-    for (int k = 0; k <= 44; ++k)
-      strip.poses.push_back({Vec3(-1.0 + 0.5 * k, 0.5, 0.2 * pass), Vec3(0.2, 1.0, 0.1 * (pass % 2)).normalized()});
-  }
+  const Path path = passes_beside_each_other(51, 0.5, 0.0, 0.2, 0.1);
   const SweptVolume volume(tool, path);
   const Face face = test::plane_face("F1", 20.0, 10.0);
   const FaceSamples coarse = sample_face(face, 1.0, true), fine = sample_face(face, 0.06, true);
@@ -134,14 +140,9 @@ TEST(CoverSearch, PassesThatAreNarrowerThanACellProveItTogether) {
 TEST(CoverSearch, ACrestIsProvedByBothPassesBesideIt) {
   Tool tool;
   tool.radial = RadialFunction(ToolFamily::kCone, 8.0, Eigen::Vector2d(2.0, 0.1));
-  Path path;
-  const double apart =
-      2.0 * std::sqrt(0.95 * kTolerance * (4.0 - 0.95 * kTolerance));  // of crests of 0.95 of the tolerance
-  for (int pass = 0; pass <= 20; ++pass) {
-    Strip& strip = path.strips.emplace_back();
-    for (int k = 0; k <= 44; ++k)
-      strip.poses.push_back({Vec3(-1.0 + 0.5 * k, 2.0, apart * pass - 0.05), Vec3(0.2, 1.0, 0.0).normalized()});
-  }
+  // Of crests of 0.95 of the tolerance.
+  const double apart = 2.0 * std::sqrt(0.95 * kTolerance * (4.0 - 0.95 * kTolerance));
+  const Path path = passes_beside_each_other(21, 2.0, -0.05, apart, 0.0);
   const SweptVolume volume(tool, path);
   const Face face = test::plane_face("F1", 20.0, 10.0);
   const FaceSamples coarse = sample_face(face, 0.4, true), fine = sample_face(face, 0.06, true);
