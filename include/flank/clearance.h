@@ -2,6 +2,9 @@
 /// fixtures, along the whole motion (docs/algorithms/clearance.md).
 #pragma once
 
+#include <functional>
+#include <initializer_list>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,6 +13,7 @@
 #include "flank/path.h"
 #include "flank/tool.h"
 #include "flank/triangle_mesh.h"
+#include "flank/vec.h"
 
 namespace flank {
 
@@ -23,6 +27,37 @@ struct Obstacle {
   ObstacleRole role = ObstacleRole::kPart;
   TriangleMesh mesh;
   double deviation_mm = 0.0;  ///< the true surface is no farther than this from the triangles
+  std::string caveat = {};    ///< a sentence on what is inexact about them; empty: nothing is
+};
+
+/// An obstacle whose triangles are made when a tool comes near its box: of most faces of a part none does.
+struct DistantObstacle {
+  std::string name;
+  ObstacleRole role = ObstacleRole::kPart;
+  Box3 box;                        ///< all of it lies in it
+  std::function<Obstacle()> make;  ///< with the same name and role; called at most once, from any thread
+};
+
+/// What a tool must keep clear of, with what a search of it needs, which is made when it is asked for and kept. Copies share it. Throws what
+/// `make` throws, where it is asked.
+class ObstacleSet {
+ public:
+  ObstacleSet() : ObstacleSet(std::vector<DistantObstacle>{}) {}
+  explicit ObstacleSet(std::vector<DistantObstacle> obstacles);
+  ObstacleSet(std::vector<Obstacle> obstacles);  // NOLINT(google-explicit-constructor): triangles are a set of them
+  ObstacleSet(std::initializer_list<Obstacle> obstacles) : ObstacleSet(std::vector<Obstacle>(obstacles)) {}
+
+  [[nodiscard]] const std::vector<DistantObstacle>& obstacles() const;
+  /// The triangles of one of them, by its index; made now if they were not.
+  [[nodiscard]] const Obstacle& made(std::size_t index) const;
+  /// The same triangles, all as fixtures.
+  [[nodiscard]] ObstacleSet as_fixtures() const;
+
+  struct Data;
+  [[nodiscard]] const Data& data() const { return *data_; }  ///< for the judge
+
+ private:
+  std::shared_ptr<const Data> data_;
 };
 
 /// Flank, shank and holder are measured apart: they may touch different things. kAxis: a rod in the tool's axis above its flank.
@@ -58,6 +93,7 @@ struct ClearanceFigure {
   int strip = -1;                   ///< 0-based
   double t = 0.0;                   ///< pose index + fraction
   double z_mm = 0.0, rho_mm = 0.0;  ///< nearest point of the body: along the axis from s = 0, and from the axis
+  int obstacle_index = -1;  ///< number of the obstacle in the set; -1: nothing is near, or it was read from a file
 };
 
 /// Empty: nothing was requested, or the tool has neither shank nor holder and there are no fixtures.
@@ -66,6 +102,7 @@ struct ClearanceReport {
   /// Least distance of any of these pairs but shank and target (which may touch) at every pose, by strip: for charts.
   /// Infinite where there are no such pairs; above the truth by no more than kPoseClearanceMm or 2 percent of a depth.
   std::vector<std::vector<double>> pose_clearance_mm;
+  std::vector<std::string> notes;  ///< caveats of the obstacles that the figures are about
   [[nodiscard]] bool kept() const;
   /// The figure with the least clearance minus its bound and its requirement; nullptr if there is none.
   [[nodiscard]] const ClearanceFigure* worst() const;
@@ -76,13 +113,13 @@ struct ClearanceReport {
 
 /// Judges tool and path against the obstacles, continuous between the poses. Parallel; the same bits for any number of
 /// threads. Throws UsageError for an accuracy or tolerance that is not > 0, InputError for poses that are none.
-[[nodiscard]] ClearanceReport judge_clearance(const Tool& tool, const Path& path,
-                                              const std::vector<Obstacle>& obstacles, const ClearanceOptions& options);
+[[nodiscard]] ClearanceReport judge_clearance(const Tool& tool, const Path& path, const ObstacleSet& obstacles,
+                                              const ClearanceOptions& options);
 
 /// Whether every clearance is kept, as judge_clearance(...).kept() says, in less time: it ends at the first place where one is not. It may say no
 /// where that says yes by less than twice the accuracy. A shank keeps `shank_least_mm`, too, where that is more than what is required. Parallel;
 /// the same answer for any number of threads. Throws as judge_clearance.
-[[nodiscard]] bool keeps_clear(const Tool& tool, const Path& path, const std::vector<Obstacle>& obstacles,
+[[nodiscard]] bool keeps_clear(const Tool& tool, const Path& path, const ObstacleSet& obstacles,
                                const ClearanceOptions& options, double shank_least_mm = -1e300);
 
 /// Whether anything could hold the tool where it works, whatever shank and holder it has or lacks.
@@ -96,8 +133,7 @@ struct HoldReport {
 
 /// Judges that against the part's faces, continuous between the poses; fixtures are for shank and holder to keep clear of. None if
 /// there are no faces or no poses. Parallel; the same bits for any number of threads. Throws as judge_clearance.
-[[nodiscard]] std::optional<HoldReport> judge_hold(const Tool& tool, const Path& path,
-                                                   const std::vector<Obstacle>& obstacles,
+[[nodiscard]] std::optional<HoldReport> judge_hold(const Tool& tool, const Path& path, const ObstacleSet& obstacles,
                                                    const ClearanceOptions& options);
 
 }  // namespace flank

@@ -45,7 +45,8 @@ class Faults : public ::testing::Test {
   void make_old() const {
     fs::remove_all(folder());
     ResultFolder(folder(), ResultFolder::Use::kWrite)
-        .replace(kOld, {.made_by = "fit", .folder = folder(), .part = {}, .judged = {}, .inputs = {}, .files = {}});
+        .replace({kOld.begin(), kOld.end()},
+                 {.made_by = "fit", .folder = folder(), .part = {}, .judged = {}, .inputs = {}, .files = {}});
     std::ofstream(root_ / "out/mine.txt") << "mine";
   }
 

@@ -51,7 +51,9 @@ class ResultFolderTest : public ::testing::Test {
             .inputs = {},
             .files = {}};
   }
-  void replace(const Files& files) const { ResultFolder(folder(), Use::kWrite).replace(files, manifest()); }
+  void replace(const Files& files) const {
+    ResultFolder(folder(), Use::kWrite).replace({files.begin(), files.end()}, manifest());
+  }
   /// The message, "accepted" if there is none.
   static std::string refusal(const std::function<void()>& what) {
     try {
@@ -64,6 +66,24 @@ class ResultFolderTest : public ::testing::Test {
 
   fs::path root_;
 };
+
+TEST_F(ResultFolderTest, LongTextsAreMadeOneByOneWhenTheyAreWritten) {
+  int made = 0;
+  const auto text = [&](const std::string& of) { return [&made, of] { return of + std::to_string(++made); }; };
+  FileTexts files;
+  files["path.json"] = text("path ");
+  files["tool.json"] = text("tool ");
+  ResultFolder(folder(), Use::kWrite).replace(files, manifest());
+  EXPECT_EQ(made, 2);
+  EXPECT_EQ(content("path.json"), "path 1");
+  EXPECT_EQ(content("tool.json"), "tool 2");
+  EXPECT_EQ(refusal([&] { ResultFolder(folder(), Use::kRead).require_whole(); }), "accepted");
+  // What cannot be made leaves all as it was.
+  files["tool.json"] = std::function<std::string()>([]() -> std::string { throw InputError("no tool"); });
+  EXPECT_THROW(ResultFolder(folder(), Use::kWrite).replace(files, manifest()), InputError);
+  EXPECT_EQ(content("path.json"), "path 1");
+  EXPECT_EQ(all().size(), 3u);
+}
 
 TEST_F(ResultFolderTest, ReplacesAResultAndLeavesOthersFiles) {
   replace({{"tool.json", "a"}, {"path.json", "b"}, {"ranking.json", "c"}});

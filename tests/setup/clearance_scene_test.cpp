@@ -64,13 +64,13 @@ TEST_F(Scene, HasTargetsCheckFacesAndFixtures) {
   setup_.fixtures = read_fixtures({fixture("vice.stl", 30.0)}, "mm");
   std::vector<std::string> notes;
   const ClearanceScene scene = make_clearance_scene(setup_, {}, true, notes);
-  ASSERT_EQ(scene.obstacles.size(), 3u) << "the face that is ignored is not there";
-  EXPECT_EQ(scene.obstacles[0].role, ObstacleRole::kTarget);
-  EXPECT_EQ(scene.obstacles[0].name, "F1");
-  EXPECT_EQ(scene.obstacles[1].role, ObstacleRole::kPart);
-  EXPECT_EQ(scene.obstacles[1].name, "F3");
-  EXPECT_EQ(scene.obstacles[2].role, ObstacleRole::kFixture);
-  EXPECT_EQ(scene.obstacles[2].name, "vice.stl F1");
+  ASSERT_EQ(scene.obstacles.obstacles().size(), 3u) << "the face that is ignored is not there";
+  EXPECT_EQ(scene.obstacles.obstacles()[0].role, ObstacleRole::kTarget);
+  EXPECT_EQ(scene.obstacles.obstacles()[0].name, "F1");
+  EXPECT_EQ(scene.obstacles.obstacles()[1].role, ObstacleRole::kPart);
+  EXPECT_EQ(scene.obstacles.obstacles()[1].name, "F3");
+  EXPECT_EQ(scene.obstacles.obstacles()[2].role, ObstacleRole::kFixture);
+  EXPECT_EQ(scene.obstacles.obstacles()[2].name, "vice.stl F1");
 }
 
 TEST_F(Scene, DoesNotReadFixturesAgain) {
@@ -112,7 +112,7 @@ TEST_F(Scene, WithoutABodyOnlyWhatCouldHoldTheToolIsAsked) {
   internal::Setup none = setup_;
   none.targets.clear();
   none.checks.clear();
-  EXPECT_TRUE(make_clearance_scene(none, {}, false, notes).obstacles.empty());
+  EXPECT_TRUE(make_clearance_scene(none, {}, false, notes).obstacles.obstacles().empty());
 }
 
 TEST_F(Scene, RefusesRequestsThatMakeNoSense) {

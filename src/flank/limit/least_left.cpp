@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "flank/geom/face_box.h"
 #include "flank/limit/ball_room.h"
 #include "flank/target.h"
 
@@ -28,8 +29,7 @@ std::vector<Face> faces_near(const Setup& setup, const Vec3& place, double reach
     for (const int k : *faces) {
       if (setup.part.is_left_out(k)) continue;
       const Face& face = setup.part.faces[static_cast<std::size_t>(k)];
-      Box3 box;
-      for (const Vec3& pole : face.surface.poles) box.add(pole);
+      const Box3 box = box_of(face);
       const Vec3 beyond = (box.low - place).cwiseMax(place - box.high).cwiseMax(Vec3::Zero());
       if (beyond.norm() <= reach_mm) near.push_back(face);
     }

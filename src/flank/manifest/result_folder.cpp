@@ -187,14 +187,13 @@ void ResultFolder::read_manifest() {
   if (is_file(file)) manifest_ = manifest_from_json(content_of(file), file);
 }
 
-void ResultFolder::replace(const std::map<std::string, std::string>& files, Manifest manifest) {
+void ResultFolder::replace(const FileTexts& files, Manifest manifest) {
   manifest.files.clear();
-  for (const auto& [name, content] : files) manifest.files[name] = sha256(content);
   require_no_strangers();
-  publish(files, manifest);
+  publish(files, std::move(manifest));
 }
 
-void ResultFolder::add(const std::map<std::string, std::string>& files, Manifest manifest) {
+void ResultFolder::add(const FileTexts& files, Manifest manifest) {
   if (manifest_) manifest.files = manifest_->files;
   for (const auto& [name, content] : files) require_own(name);
   // What other programs wrote is taken as it is now.
@@ -202,11 +201,10 @@ void ResultFolder::add(const std::map<std::string, std::string>& files, Manifest
     if (name != kManifestFile && is_file(in(name)) &&
         (manifest.made_by == kMadeByVerify || !manifest.files.contains(name)))
       manifest.files[name] = sha256(content_of(in(name)));
-  for (const auto& [name, content] : files) manifest.files[name] = sha256(content);
-  publish(files, manifest);
+  publish(files, std::move(manifest));
 }
 
-void ResultFolder::publish(const std::map<std::string, std::string>& files, const Manifest& manifest) {
+void ResultFolder::publish(const FileTexts& files, Manifest manifest) {
   const std::string unfinished = in(kUnfinished);
   // What is complete must have its place, or no later command could move it there.
   for (const auto& [name, content] : files) {
@@ -215,7 +213,11 @@ void ResultFolder::publish(const std::map<std::string, std::string>& files, cons
   }
   try {
     make_unfinished();
-    for (const auto& [name, content] : files) write_new_file((fs::path(unfinished) / name).string(), content);
+    for (const auto& [name, content] : files) {
+      const std::string text = content.text();
+      manifest.files[name] = sha256(text);
+      write_new_file((fs::path(unfinished) / name).string(), text);
+    }
     write_new_file((fs::path(unfinished) / kManifestFile).string(), manifest_to_json(manifest));
     sync_folder(unfinished);
     rename_file(unfinished, in(kComplete));

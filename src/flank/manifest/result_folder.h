@@ -2,12 +2,12 @@
 /// together (docs/decisions/0018-a-result-is-one-thing.md).
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "flank/base/kept/read_files.h"
+#include "flank/manifest/file_text.h"
 #include "flank/manifest/manifest.h"
 
 namespace flank::internal {
@@ -48,9 +48,9 @@ class ResultFolder {
 
   /// Puts files (name, content) and a manifest in the place of all that was there of an earlier result: at once, and on
   /// the disk. Files of others stay, and are never replaced. Throws InputError; what was there is whole then.
-  void replace(const std::map<std::string, std::string>& files, Manifest manifest);
+  void replace(const FileTexts& files, Manifest manifest);
   /// The same, but nothing that is not named is removed, and the manifest names all files of a result that are there.
-  void add(const std::map<std::string, std::string>& files, Manifest manifest);
+  void add(const FileTexts& files, Manifest manifest);
 
   /// Throws InputError, naming the first file of the result that is not the one of the manifest. Nothing without a
   /// manifest. `but`: names that may have changed.
@@ -75,7 +75,8 @@ class ResultFolder {
   [[nodiscard]] bool is_ours(const std::string& name) const;
   void require_no_strangers() const;
   void read_manifest();
-  void publish(const std::map<std::string, std::string>& files, const Manifest& manifest);
+  /// The manifest gets the hashes of the files.
+  void publish(const FileTexts& files, Manifest manifest);
   void move_into_place();
   void remove_stale(const Manifest& next) const;
   void clean_up() const;

@@ -9,13 +9,12 @@
 #include "flank/base/tolerance_budget.h"
 #include "flank/error.h"
 #include "flank/fit/rejected.h"
-#include "flank/geom/tessellate.h"
 #include "flank/job/check_fields.h"
-#include "flank/obstacle/line_of_sight.h"
 #include "flank/pipeline/auto_shank.h"
 #include "flank/pipeline/finish.h"
 #include "flank/pipeline/fit_shank.h"
 #include "flank/pipeline/folder/judge_job.h"
+#include "flank/pipeline/free_line.h"
 #include "flank/pipeline/repair_judged_cuts.h"
 #include "flank/pipeline/run_journal.h"
 #include "flank/pipeline/search/fit_search.h"
@@ -244,17 +243,6 @@ void judge_fit(const Setup& setup, const ClearanceScene& scene, FitSearch& searc
   }
 }
 
-/// Lines that meet no face of the part. What a line begins at may be its own face: not nearer than that is known to.
-decltype(FitDemand::is_free_line) free_line_in(const ClearanceScene& scene) {
-  TriangleMesh all;
-  for (const Obstacle& obstacle : scene.obstacles)
-    if (obstacle.role != ObstacleRole::kFixture) append(all, obstacle.mesh);
-  if (all.triangles.empty()) return {};
-  const double least = 1e-6 * all.box().diagonal();
-  const auto tree = std::make_shared<const TriangleTree>(tree_of(all));
-  return [tree, least](const Vec3& from, const Vec3& direction) { return !meets(*tree, from, direction, least); };
-}
-
 /// A search and its verdict. `read`: what is known before. `open_shank`: one is chosen for what was found.
 Result search_and_judge(const Setup& setup, const ClearanceScene& scene, const ToolSpec& spec, Result read,
                         const FitDemand& demand, bool open_shank, const Progress& progress) {
@@ -296,6 +284,7 @@ bool passes(const Result& result) {
 struct ReadPart {
   Setup setup;
   ClearanceScene scene;
+  decltype(FitDemand::is_free_line) is_free_line;
   std::vector<std::string> notes;  ///< of both
 };
 
@@ -304,6 +293,7 @@ ReadPart read_part_of(const FitJob& job, const ToolSpec& spec) {
   read.setup = read_setup(job.part, job.obstacles, job.tolerance_mm, read.notes);
   check_axis_length(job, read.setup.part);
   read.scene = make_clearance_scene(read.setup, job.obstacles, has_body(spec, job.obstacles), read.notes);
+  read.is_free_line = free_line_in(read.scene.obstacles);
   return read;
 }
 
@@ -336,12 +326,12 @@ Result plan_fit(const FitJob& request, KnownShank known, const Progress& asked, 
   const Result read = result;
   const bool in_the_way = known == KnownShank::kInTheWay,
              open = job.obstacles.shank == "auto" || known == KnownShank::kLength;
-  result = search_and_judge(setup, scene, spec, read, {0.0, free_line_in(scene), in_the_way}, open, progress);
+  result = search_and_judge(setup, scene, spec, read, {0.0, part->is_free_line, in_the_way}, open, progress);
   const double estimate = std::get<FitSummary>(result.plan).after.coverage;
   const double spare = result.complete ? spare_needed(job, result.verify, estimate) : 0.0;
   if (spare > 0.0) {
     try {
-      Result stricter = search_and_judge(setup, scene, spec, read, {spare, free_line_in(scene), in_the_way}, open,
+      Result stricter = search_and_judge(setup, scene, spec, read, {spare, part->is_free_line, in_the_way}, open,
                                          once_more(progress));
       if (passes(stricter)) result = std::move(stricter);
     } catch (const Stopped&) {  // what was found before is whole

@@ -10,6 +10,7 @@
 
 #include "flank/envelope/swept_estimate.h"
 #include "flank/error.h"
+#include "flank/geom/face_box.h"
 
 namespace flank::internal {
 namespace {
@@ -56,11 +57,7 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-bool near_box(const Face& face, const Box3& box, double margin) {
-  Box3 hull;
-  for (const Vec3& pole : face.surface.poles) hull.add(pole);
-  return (hull.low.array() <= box.high.array() + margin).all() && (hull.high.array() >= box.low.array() - margin).all();
-}
+bool near_box(const Face& face, const Box3& box, double margin) { return near(box_of(face), box, margin); }
 
 }  // namespace
 

@@ -46,8 +46,8 @@ Manifest manifest_of(const PlanJob& job, const std::string& part_sha256, const R
 
 }  // namespace
 
-std::map<std::string, std::string> result_files(const Result& result, const Acceptance& acceptance) {
-  std::map<std::string, std::string> files;
+FileTexts result_files(const Result& result, const Acceptance& acceptance) {
+  FileTexts files;
   ClsOptions cls;
   cls.part = fs::path(part_of(result.job)).stem().string();
   files["tool.json"] = tool_to_json(result.tool);
@@ -58,15 +58,17 @@ std::map<std::string, std::string> result_files(const Result& result, const Acce
     files["tool.fctb"] = tool_to_fctb(result.tool);
   }
   if (result.drawings) files["strips.step"] = strips_to_step(result.drawings->strips, result.tool.radial.axis_length());
-  files["path.json"] = path_to_json(result.path);
-  files["path.cls"] = path_to_cls(result.path, result.tool, cls);
-  files["path.csv"] = path_to_csv(result.path);
+  files["path.json"] = [&result] { return path_to_json(result.path); };
+  files["path.cls"] = [&result, cls] { return path_to_cls(result.path, result.tool, cls); };
+  files["path.csv"] = [&result] { return path_to_csv(result.path); };
   files["job.json"] = job_to_json(result.job);
   files["verify.json"] = verify_to_json(result.verify, acceptance);
-  if (result.drawings) files["view.json"] = view_to_json(result.drawings->view);
+  if (result.drawings) files["view.json"] = [&result] { return view_to_json(result.drawings->view); };
   if (result.drawings && !result.drawings->blank.empty()) files["blank.json"] = blank_to_json(result.drawings->blank);
   if (result.drawings && !result.drawings->engagement.empty())
-    files["engagement.json"] = engagement_to_json(result.drawings->engagement, result.drawings->arcs);
+    files["engagement.json"] = [&result] {
+      return engagement_to_json(result.drawings->engagement, result.drawings->arcs);
+    };
   if (result.drawings && !result.drawings->left.triangles.empty())
     files["stock.stl"] = mesh_to_stl(result.drawings->left);
   if (result.ranking) files["ranking.json"] = ranking_to_json(*result.ranking);
@@ -88,7 +90,7 @@ void write_result(const Result& result, ResultFolder& folder) {
 
 bool write_steps(const Progress::Journal& journal, const PlanJob& job, ResultFolder& folder) {
   if (!journal.key() || journal.steps().empty()) return false;
-  const std::map<std::string, std::string> files{{kJournalFile, journal_to_json(journal)}};
+  const FileTexts files{{kJournalFile, journal_to_json(journal)}};
   if (!folder.manifest())
     folder.replace(files, manifest_of(job, journal.key()->part, folder));
   else if (folder.manifest()->files.contains(kJournalFile))

@@ -1,7 +1,6 @@
 /// A result into a folder that is held already (run.h has the same for a folder by its name).
 #pragma once
 
-#include <map>
 #include <string>
 
 #include "flank/base/journal.h"
@@ -12,7 +11,7 @@ namespace flank::internal {
 
 /// The files of a result, name and content, with this verdict in all that say one: Result::acceptance, but for tests of who
 /// reads them.
-[[nodiscard]] std::map<std::string, std::string> result_files(const Result& result, const Acceptance& acceptance);
+[[nodiscard]] FileTexts result_files(const Result& result, const Acceptance& acceptance);
 /// The manifest that belongs to them.
 [[nodiscard]] Manifest result_manifest(const Result& result, const ResultFolder& folder);
 /// summary.json of them.

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
+#include <utility>
 
-#include "flank/base/parallel.h"
 #include "flank/base/tolerance_budget.h"
+#include "flank/geom/face_box.h"
 #include "flank/geom/tessellate.h"
 #include "flank/io/cad/triangulate.h"
 
@@ -20,55 +22,60 @@ bool holds(const std::vector<int>& faces, std::size_t face) {
   return std::find(faces.begin(), faces.end(), static_cast<int>(face)) != faces.end();
 }
 
-/// The triangles as an obstacle; `notes` gets what is wrong with them.
-Obstacle as_obstacle(FaceTriangles face, const std::string& name, ObstacleRole role, double deviation,
-                     std::vector<std::string>& notes) {
+/// The triangles as an obstacle, with what is wrong with them.
+Obstacle as_obstacle(FaceTriangles face, const std::string& name, ObstacleRole role, double deviation) {
+  std::string caveat;
   if (face.deviation_mm > 2.0 * deviation)
-    notes.push_back(fmt::format(
+    caveat = fmt::format(
         "{}: clearances to it are measured to triangles that follow it within {:.3g} mm; their +- includes that", name,
-        face.deviation_mm));
-  if (face.beyond_border)
-    notes.push_back(
-        name + ": its border could not be followed; clearances are measured to triangles that may reach beyond it");
-  return {name, role, std::move(face.mesh), face.deviation_mm};
+        face.deviation_mm);
+  else if (face.beyond_border)
+    caveat = name + ": its border could not be followed; clearances are measured to triangles that may reach beyond it";
+  return {name, role, std::move(face.mesh), face.deviation_mm, std::move(caveat)};
 }
 
 /// Triangles for the question whether anything stands in a line: by a grid, in milliseconds, where a mesher that is held to a deviation
 /// may take minutes for one face that folds. The grid aims at the deviation; twice that is counted.
-std::vector<FaceTriangles> coarse_triangles(const Part& part, double deviation) {
+FaceTriangles coarse_triangles(const Face& face, double deviation) {
   constexpr double kAimed = 2.0;
-  std::vector<FaceTriangles> faces(part.faces.size());
-  parallel_for(faces.size(), [&](std::size_t k) {
-    faces[k].face = part.face_id(static_cast<int>(k));
-    if (part.left_out.contains(static_cast<int>(k))) return;  // it has no surface
-    faces[k].mesh = tessellate(part.faces[k], {.chord_mm = deviation}).mesh;
-    faces[k].deviation_mm = kAimed * deviation;
-  });
-  return faces;
+  FaceTriangles out;
+  out.mesh = tessellate(face, {.chord_mm = deviation}).mesh;
+  out.deviation_mm = kAimed * deviation;
+  return out;
 }
 
-void add_part(const Setup& setup, double deviation, bool coarse, std::vector<Obstacle>& obstacles,
-              std::vector<std::string>& notes) {
-  std::vector<FaceTriangles> faces =
-      coarse && !setup.part.is_mesh() ? coarse_triangles(setup.part, deviation) : triangulate(setup.part, deviation);
-  for (std::size_t k = 0; k < faces.size(); ++k) {
+/// A face of the part, whose triangles are made when something comes near its box.
+DistantObstacle distant(const Part& part, std::size_t k, const std::string& name, ObstacleRole role, double deviation,
+                        bool coarse) {
+  if (part.is_mesh()) {
+    const auto mesh = std::make_shared<const TriangleMesh>(extract_mesh(part, {static_cast<int>(k)}));
+    return {name, role, mesh->box(), [=] { return Obstacle{name, role, *mesh, 0.0, {}}; }};
+  }
+  const auto face = std::make_shared<const Face>(part.faces[k]);
+  return {name, role, box_of(*face), [=] {
+            return as_obstacle(coarse ? coarse_triangles(*face, deviation) : triangulate_face(*face, deviation), name,
+                               role, deviation);
+          }};
+}
+
+void add_part(const Setup& setup, double deviation, bool coarse, std::vector<DistantObstacle>& obstacles) {
+  const Part& part = setup.part;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(part.face_count()); ++k) {
     const bool target = holds(setup.targets, k);
-    if (!target && !holds(setup.checks, k)) continue;
-    const std::string name = faces[k].face;
-    const ObstacleRole role = target ? ObstacleRole::kTarget : ObstacleRole::kPart;
-    obstacles.push_back(as_obstacle(std::move(faces[k]), name, role, deviation, notes));
+    if ((!target && !holds(setup.checks, k)) || part.is_left_out(static_cast<int>(k))) continue;
+    obstacles.push_back(distant(part, k, part.face_id(static_cast<int>(k)),
+                                target ? ObstacleRole::kTarget : ObstacleRole::kPart, deviation, coarse));
   }
 }
 
-void add_fixture(const Part& fixture, double deviation, std::vector<Obstacle>& obstacles,
+void add_fixture(const Part& fixture, double deviation, std::vector<DistantObstacle>& obstacles,
                  std::vector<std::string>& notes) {
   for (const std::string& repair : fixture.repairs) notes.push_back(fixture.file + ": " + repair);
   const std::string short_name = std::filesystem::path(fixture.file).filename().string();
-  for (FaceTriangles& face : triangulate(fixture, deviation)) {
-    if (face.mesh.triangles.empty()) continue;
-    const std::string name = short_name + " " + face.face;
-    obstacles.push_back(as_obstacle(std::move(face), name, ObstacleRole::kFixture, deviation, notes));
-  }
+  for (std::size_t k = 0; k < static_cast<std::size_t>(fixture.face_count()); ++k)
+    if (!fixture.is_left_out(static_cast<int>(k)))
+      obstacles.push_back(distant(fixture, k, short_name + " " + fixture.face_id(static_cast<int>(k)),
+                                  ObstacleRole::kFixture, deviation, false));
 }
 
 }  // namespace
@@ -83,10 +90,11 @@ ClearanceScene make_clearance_scene(const Setup& setup, const ObstacleRequest& r
   const double deviation =
       std::clamp(kToleranceBudget.shank.judge_triangles * setup.tolerance_mm, kFinestMm, kCoarsestMm);
   // Whether something is in the way of a tool that is not known yet need not be told to a hundredth of a millimetre.
-  std::vector<std::string> unsaid;
-  add_part(setup, has_body ? deviation : std::max(kCoarsestMm, kSizeShare * setup.part.box.diagonal()), !has_body,
-           scene.obstacles, has_body ? notes : unsaid);
-  for (const Part& fixture : setup.fixtures) add_fixture(fixture, deviation, scene.obstacles, notes);
+  const double coarse = std::max(kCoarsestMm, kSizeShare * setup.part.box.diagonal());
+  std::vector<DistantObstacle> obstacles;
+  add_part(setup, has_body ? deviation : coarse, !has_body, obstacles);
+  for (const Part& fixture : setup.fixtures) add_fixture(fixture, deviation, obstacles, notes);
+  scene.obstacles = ObstacleSet(std::move(obstacles));
   return scene;
 }
 
@@ -98,8 +106,8 @@ void measure_bodies(const ClearanceScene& scene, const Tool& tool, const Path& p
 namespace {
 
 bool anything_to_judge(const ClearanceScene& scene) {
-  return scene.has_body || std::any_of(scene.obstacles.begin(), scene.obstacles.end(),
-                                       [](const Obstacle& o) { return o.role == ObstacleRole::kFixture; });
+  return scene.has_body || std::any_of(scene.obstacles.obstacles().begin(), scene.obstacles.obstacles().end(),
+                                       [](const DistantObstacle& o) { return o.role == ObstacleRole::kFixture; });
 }
 
 }  // namespace

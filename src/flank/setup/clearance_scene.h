@@ -1,4 +1,4 @@
-/// What shank, holder and flank must keep clear of, read and triangulated once for any number of looks.
+/// What shank, holder and flank must keep clear of, read once, and triangulated where something comes near, for any number of looks.
 #pragma once
 
 #include <string>
@@ -11,14 +11,14 @@
 namespace flank::internal {
 
 struct ClearanceScene {
-  std::vector<Obstacle> obstacles;  ///< faces of the part, then fixtures
+  ObstacleSet obstacles;  ///< faces of the part, then fixtures
   ClearanceOptions options;
   bool has_body =
       false;  ///< shank or holder are measured; else the part's faces are there for what might hold the tool alone
 };
 
-/// Triangulates the fixtures and the part's targets and check faces, coarsely if the tool has no body above its flank; no other faces
-/// count. `notes` gets what was done to fixtures and what is inaccurate.
+/// The fixtures and the part's targets and check faces, to be triangulated coarsely if the tool has no body above its flank; no other faces
+/// count. `notes` gets what was done to fixtures.
 [[nodiscard]] ClearanceScene make_clearance_scene(const Setup& setup, const ObstacleRequest& request, bool has_body,
                                                   std::vector<std::string>& notes);
 

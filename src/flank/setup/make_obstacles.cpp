@@ -9,6 +9,7 @@
 
 #include "flank/base/parallel.h"
 #include "flank/error.h"
+#include "flank/geom/face_box.h"
 #include "flank/io/cad/triangulate.h"
 #include "flank/io/part_format.h"
 #include "flank/surface/facets.h"
@@ -31,13 +32,6 @@ double box_gap(const Box3& box, const std::vector<SurfaceSample>& samples) {
   double least = std::numeric_limits<double>::infinity();
   for (const SurfaceSample& sample : samples) least = std::min(least, box.squared_distance(sample.point));
   return std::sqrt(least);
-}
-
-/// A surface lies in the hull of its control points.
-Box3 hull_of(const Face& face) {
-  Box3 box;
-  for (const Vec3& pole : face.surface.poles) box.add(pole);
-  return box;
 }
 
 /// The face as a surface of its own.
@@ -67,7 +61,7 @@ void add_surfaces(const Part& part, const std::vector<int>& faces, const std::ve
   parallel_for(faces.size(), [&](std::size_t k) {
     const Face* face = part.is_mesh() ? nullptr : &part.faces[static_cast<std::size_t>(faces[k])];
     // To make a surface that can be asked costs more than all that is asked of most of them.
-    far[k] = face != nullptr && box_gap(hull_of(*face), samples) > reach;
+    far[k] = face != nullptr && box_gap(box_of(*face), samples) > reach;
     if (far[k]) return;
     all[k].surface = surface_of(part, faces[k]);
     all[k].clearance_mm = clearance_mm;

@@ -6,6 +6,7 @@
 
 #include "flank/base/parallel.h"
 #include "flank/base/stopping.h"
+#include "flank/geom/face_box.h"
 #include "flank/geom/tessellate.h"
 #include "flank/verify/reach_border.h"
 
@@ -35,9 +36,8 @@ int solid_of(const Part& part, int face) {
 TriangleMesh triangles_of(const Part& part, int face, const Box3& near, const ReachFineness& of) {
   if (part.is_mesh()) return extract_mesh(part, {face});
   const Face& value = part.faces[static_cast<std::size_t>(face)];
-  Box3 box;
-  for (const Vec3& p : value.surface.poles) box.add(p);
-  const bool meets = (box.low.array() <= near.high.array()).all() && (box.high.array() >= near.low.array()).all();
+  const Box3 box = box_of(value);
+  const bool meets = internal::near(box, near);
   const double size = box.diagonal();
   return tessellate(value,
                     {.chord_mm = meets ? of.fine_on(size) : of.coarse_mm, .edge_mm = meets ? of.cell_on(size) : 1e300})

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <limits>
+#include <memory>
+#include <string>
 
 #include "flank/error.h"
 #include "flank/threads.h"
@@ -56,6 +59,46 @@ TEST(ClearanceVerdict, StillToolOverPlane) {
   EXPECT_EQ(flank.obstacle, "vice");
   EXPECT_FALSE(report.kept());
   EXPECT_EQ(report.worst()->body, ToolBody::kShank);
+}
+
+/// The same obstacles, each made when it is asked for, and how many were.
+ObstacleSet distant(const std::vector<Obstacle>& obstacles, std::shared_ptr<std::atomic<int>> made) {
+  std::vector<DistantObstacle> all;
+  for (const Obstacle& o : obstacles)
+    all.push_back({o.name, o.role, o.mesh.box(), [o, made] {
+                     ++*made;
+                     return o;
+                   }});
+  return ObstacleSet(std::move(all));
+}
+
+TEST(ClearanceVerdict, OnlyWhatTheToolComesNearToIsMade) {
+  const Path path = path_of({{Vec3(0, 0, 10), Vec3::UnitZ()}, {Vec3(5, 3, 10), Vec3(0.3, 0, 1).normalized()}});
+  std::vector<Obstacle> obstacles = {{"near", ObstacleRole::kPart, square(5, 61.0), 0.0},
+                                     {"under", ObstacleRole::kTarget, square(30, -5.0), 0.0}};
+  for (int k = 0; k < 20; ++k)
+    obstacles.push_back({"far " + std::to_string(k), k % 2 == 0 ? ObstacleRole::kPart : ObstacleRole::kFixture,
+                         square(200, 400.0 + 50.0 * k), 0.01});
+  const auto made = std::make_shared<std::atomic<int>>(0);
+  const ObstacleSet set = distant(obstacles, made);
+  ASSERT_TRUE(keeps_clear(with_holder(), path, {obstacles[1]}, {}));
+  EXPECT_EQ(keeps_clear(with_holder(), path, set, {}), keeps_clear(with_holder(), path, obstacles, {}));
+  EXPECT_LE(made->load(), 2);
+  const ClearanceReport lazy = judge_clearance(with_holder(), path, set, {}),
+                        whole = judge_clearance(with_holder(), path, obstacles, {});
+  ASSERT_EQ(lazy.figures.size(), whole.figures.size());
+  for (std::size_t k = 0; k < lazy.figures.size(); ++k) {
+    EXPECT_EQ(lazy.figures[k].obstacle, whole.figures[k].obstacle);
+    EXPECT_NEAR(lazy.figures[k].clearance_mm, whole.figures[k].clearance_mm, 1e-3);
+  }
+  EXPECT_NEAR(lazy.pose_clearance_mm[0][1], whole.pose_clearance_mm[0][1], kPoseClearanceMm);
+  EXPECT_EQ(figure_of(lazy, ToolBody::kFlank, ObstacleRole::kFixture).obstacle, "far 1")
+      << "what is nearest is told however far it is";
+  EXPECT_LT(made->load(), 22);
+  // What was asked before changes no answer.
+  const ClearanceReport again = judge_clearance(with_holder(), path, set, {});
+  for (std::size_t k = 0; k < lazy.figures.size(); ++k)
+    EXPECT_EQ(lazy.figures[k].clearance_mm, again.figures[k].clearance_mm);
 }
 
 TEST(ClearanceVerdict, RequirementsAndWhoMayTouch) {

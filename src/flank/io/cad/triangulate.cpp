@@ -10,6 +10,7 @@
 
 #include "flank/base/parallel.h"
 #include "flank/error.h"
+#include "flank/geom/face_box.h"
 #include "flank/geom/tessellate.h"
 #include "flank/geom/trim.h"
 #include "flank/io/cad/write_occt_face.h"
@@ -206,8 +207,7 @@ FaceTriangles by_graded_grid(const Face& face, double wanted) {
 /// side. Empty where that would take too many triangles, or where the cells miss some of it.
 FaceTriangles by_cut_grid(const Face& face, double wanted, double area) {
   constexpr double kSides = 100.0;  // cells along the face, at least: a border is no straighter than they
-  Box3 box;
-  for (const Vec3& pole : face.surface.poles) box.add(pole);
+  const Box3 box = box_of(face);
   FaceTriangles out;
   out.face = face.id;
   double aim = wanted;

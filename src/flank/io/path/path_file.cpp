@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <exception>
 #include <set>
 
 #include "flank/base/atomic_file.h"
+#include "flank/error.h"
 #include "flank/io/text/json_input.h"
 
 namespace flank {
@@ -16,12 +19,13 @@ namespace {
 constexpr std::string_view kSchema = "openflank/path/1";
 
 /// [x, y, z, i, j, k]. An axis with rounded digits is normalised; one that is no unit vector at all is refused.
-Pose pose_from(const JsonInput& in) {
-  const std::vector<double> v = in.numbers(6);
+Pose pose_from(const JsonInput& poses, std::size_t k) {
+  std::array<double, 6> v{};
+  poses.numbers_of(k, v);  // no element(k): its name would be formatted a million times for a long path
   Pose pose{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
   const double length = pose.axis.norm();
   if (!(std::abs(length - 1.0) <= kAxisLengthRounded))
-    in.refuse(fmt::format("the axis vector (i, j, k) has length {}; must be 1", length));
+    poses.element(k).refuse(fmt::format("the axis vector (i, j, k) has length {}; must be 1", length));
   if (std::abs(length - 1.0) > kAxisLengthExact) pose.axis /= length;
   return pose;
 }
@@ -40,7 +44,7 @@ Strip strip_from(const JsonInput& in) {
   const JsonInput poses = in.member("poses");
   if (poses.size() == 0) poses.refuse("expected at least one pose [x, y, z, i, j, k]");
   strip.poses.reserve(poses.size());
-  for (std::size_t i = 0; i < poses.size(); ++i) strip.poses.push_back(pose_from(poses.element(i)));
+  for (std::size_t i = 0; i < poses.size(); ++i) strip.poses.push_back(pose_from(poses, i));
   return strip;
 }
 
@@ -65,17 +69,28 @@ std::string path_to_json(const Path& path) {
 }
 
 Path path_from_json(std::string_view text, const std::string& file) {
-  const JsonInput in(file, text);
-  in.require_schema(kSchema);
-  in.allow_keys({"schema", "units", "strips"});
-  const JsonInput strips = in.member("strips");
   Path path;
   std::set<int> ids;
-  for (std::size_t i = 0; i < strips.size(); ++i) {
-    path.strips.push_back(strip_from(strips.element(i)));
-    if (!ids.insert(path.strips.back().id).second)
-      strips.element(i).refuse(fmt::format("id {} is used twice", path.strips.back().id));
-  }
+  std::exception_ptr refused;  // what else is wrong with the file is told first
+  const auto take = [&](const JsonInput& in) {
+    path.strips.push_back(strip_from(in));
+    if (!ids.insert(path.strips.back().id).second) in.refuse(fmt::format("id {} is used twice", path.strips.back().id));
+  };
+  const JsonInput in(file, text, "strips", [&](const JsonInput& strip) {
+    if (refused) return;
+    try {
+      take(strip);
+    } catch (const InputError&) {
+      refused = std::current_exception();
+    }
+  });
+  in.require_schema(kSchema);
+  in.allow_keys({"schema", "units", "strips"});
+  if (refused) std::rethrow_exception(refused);
+  // What is left in the list is no object; how many were before it is not known any more.
+  const JsonInput left = in.member("strips");
+  if (left.size() > 0 && path.strips.empty()) static_cast<void>(strip_from(left.element(0)));
+  if (left.size() > 0) left.refuse("every strip must be an object {...}");
   return path;
 }
 

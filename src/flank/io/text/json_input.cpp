@@ -35,32 +35,51 @@ std::string plain_message(const json::exception& e) {
 /// Watches the parse: the parser itself would silently keep the last of two equal keys.
 class DuplicateKeys {
  public:
+  explicit DuplicateKeys(std::string file) : file_(std::move(file)) {}
+
   bool operator()(int depth, json::parse_event_t event, json& parsed) {
-    if (depth > kDeepestNesting) throw InputError("nested too deep");
+    if (depth > kDeepestNesting) throw InputError(file_ + ": nested too deep");
     if (event == json::parse_event_t::object_start) keys_.emplace_back();
     if (event == json::parse_event_t::object_end && !keys_.empty()) keys_.pop_back();
     if (event == json::parse_event_t::key && !keys_.empty() && !keys_.back().insert(parsed.get<std::string>()).second)
-      throw InputError("key \"" + parsed.get<std::string>() + "\" occurs twice");
+      throw InputError(file_ + ": key \"" + parsed.get<std::string>() + "\" occurs twice");
     return true;
   }
 
  private:
+  std::string file_;
   std::vector<std::set<std::string>> keys_;
 };
 
-/// Shared: members and elements keep the document alive that they are part of.
-std::shared_ptr<const json> parse(const std::string& file, std::string_view text) {
+/// Shared: members and elements keep the document alive that they are part of. `end_of` is asked of every object that ends, with its depth and
+/// the key at the top that it stands under; those that it says no to are left out.
+std::shared_ptr<const json> parse(const std::string& file, std::string_view text,
+                                  const std::function<bool(int depth, const std::string& top, json&)>& end_of) {
   try {
-    DuplicateKeys watch;
-    const json::parser_callback_t callback = [&watch](int depth, json::parse_event_t event, json& parsed) {
-      return watch(depth, event, parsed);
+    DuplicateKeys watch(file);
+    std::string top;
+    const json::parser_callback_t callback = [&](int depth, json::parse_event_t event, json& parsed) {
+      if (event == json::parse_event_t::key && depth == 1) top = parsed.get<std::string>();
+      return watch(depth, event, parsed) && (event != json::parse_event_t::object_end || end_of(depth, top, parsed));
     };
     return std::make_shared<const json>(json::parse(text.begin(), text.end(), callback));
   } catch (const json::exception& e) {
     throw InputError(file + ": not valid JSON, " + plain_message(e));
-  } catch (const InputError& e) {
-    throw InputError(file + ": " + e.what());
   }
+}
+
+std::shared_ptr<const json> parse(const std::string& file, std::string_view text) {
+  return parse(file, text, [](int, const std::string&, json&) { return true; });
+}
+
+/// How many of the numbers of an array that is as long are finite ones, up to the first that is none.
+std::size_t read_numbers(const json& array, std::span<double> values) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const json& value = array[i];
+    values[i] = value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
+    if (!std::isfinite(values[i])) return i;
+  }
+  return values.size();
 }
 
 }  // namespace
@@ -83,6 +102,22 @@ std::string read_file(const std::string& file) {
 
 JsonInput::JsonInput(const std::string& file, std::string_view text)
     : document_(parse(file, text)), value_(document_.get()), file_(file) {
+  if (!value_->is_object()) refuse("must be a JSON object {...}");
+}
+
+JsonInput::JsonInput(const std::string& file, std::string_view text, const std::string& list,
+                     const std::function<void(const JsonInput&)>& each)
+    : file_(file) {
+  constexpr int kElementDepth = 2;  // the document, the list, its elements
+  std::size_t number = 0;
+  document_ = parse(file, text, [&](int depth, const std::string& top, json& parsed) {
+    if (depth != kElementDepth || top != list) return true;
+    auto element = std::make_shared<const json>(std::move(parsed));
+    const json& value = *element;
+    each(JsonInput(std::move(element), value, file, fmt::format("{}[{}]", list, number++)));
+    return false;
+  });
+  value_ = document_.get();
   if (!value_->is_object()) refuse("must be a JSON object {...}");
 }
 
@@ -162,13 +197,15 @@ std::string JsonInput::text() const {
 std::vector<double> JsonInput::numbers(std::size_t count) const {
   if (size() != count) refuse(fmt::format("has {} entries; must have {}", size(), count));
   std::vector<double> values(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    // No element() per number: its name would be formatted a million times for a long path.
-    const json& value = (*value_)[i];
-    values[i] = value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
-    if (!std::isfinite(values[i])) element(i).refuse("must be a finite number");
-  }
+  if (const std::size_t wrong = read_numbers(*value_, values); wrong < count)
+    element(wrong).refuse("must be a finite number");
   return values;
+}
+
+void JsonInput::numbers_of(std::size_t i, std::span<double> values) const {
+  const json& row = (*value_)[i];
+  if (!row.is_array() || row.size() != values.size() || read_numbers(row, values) < values.size())
+    static_cast<void>(element(i).numbers(values.size()));  // it says what is wrong
 }
 
 std::vector<Vec2> JsonInput::pairs() const {

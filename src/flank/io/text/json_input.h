@@ -1,8 +1,11 @@
 /// Strict reading of our own JSON files: every complaint names the file and the key.
 #pragma once
 
+#include <functional>
 #include <initializer_list>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +24,10 @@ class JsonInput {
   /// Parses `text`. Refuses what is not JSON (with line and column), a key that occurs twice in one object, and numbers
   /// out of range.
   JsonInput(const std::string& file, std::string_view text);
+  /// The same of a document most of which is an array of objects at its top, under the key `list`: each of them is handed to `each` as soon as
+  /// it is read, in order, and is not kept, so that the array stays empty; as a whole a long path takes ten times the memory of its numbers.
+  JsonInput(const std::string& file, std::string_view text, const std::string& list,
+            const std::function<void(const JsonInput&)>& each);
 
   /// Requires "schema" to be `schema` and "units", where there is one, to be "mm".
   void require_schema(std::string_view schema) const;
@@ -40,6 +47,8 @@ class JsonInput {
   [[nodiscard]] std::string text() const;
   /// An array of exactly `count` finite numbers.
   [[nodiscard]] std::vector<double> numbers(std::size_t count) const;
+  /// The same of element `i` of this array, into `values`, which is as long as it must be.
+  void numbers_of(std::size_t i, std::span<double> values) const;
   /// An array of pairs of finite numbers.
   [[nodiscard]] std::vector<Vec2> pairs() const;
 

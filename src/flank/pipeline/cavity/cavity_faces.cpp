@@ -11,6 +11,7 @@
 
 #include "flank/base/stopping.h"
 #include "flank/error.h"
+#include "flank/geom/face_box.h"
 #include "flank/trochoid/sides/side_fit.h"
 
 namespace flank::internal {
@@ -45,9 +46,9 @@ bool face_each_other(const Target& a, const Target& b) {
 std::vector<std::pair<double, int>> nearest_first(const Part& part, const Vec3& place) {
   std::vector<std::pair<double, int>> out;
   for (int f = 0; f < part.face_count(); ++f) {
-    Box3 hull;
-    for (const Vec3& pole : part.faces[static_cast<std::size_t>(f)].surface.poles) hull.add(pole);
-    if (!part.is_left_out(f)) out.emplace_back(std::sqrt(hull.squared_distance(place)), f);
+    if (part.is_left_out(f)) continue;
+    const Box3 box = box_of(part.faces[static_cast<std::size_t>(f)]);
+    out.emplace_back(std::sqrt(box.squared_distance(place)), f);
   }
   std::sort(out.begin(), out.end());
   return out;

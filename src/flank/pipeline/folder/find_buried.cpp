@@ -7,6 +7,7 @@
 #include <span>
 
 #include "flank/base/parallel.h"
+#include "flank/geom/face_box.h"
 #include "flank/geom/mesh_topology.h"
 #include "flank/geom/tessellate.h"
 #include "flank/verify/buried.h"
@@ -23,8 +24,7 @@ using IsJudged = std::function<bool(int face)>;
 
 Box3 box_of(const Part& part, const std::vector<int>& faces) {
   Box3 box;
-  for (const int face : faces)
-    for (const Vec3& p : part.faces[static_cast<std::size_t>(face)].surface.poles) box.add(p);
+  for (const int face : faces) box.add(internal::box_of(part.faces[static_cast<std::size_t>(face)]));
   return box;
 }
 

@@ -67,8 +67,7 @@ void check_origin(const VerifyJob& request, const ResultFolder& folder, const Pa
 std::string absolute(const std::string& file) { return std::filesystem::absolute(file).lexically_normal().string(); }
 
 /// The verdict, tied to what it is about.
-void write_verdict(ResultFolder& folder, const PartStamp& part, const std::map<std::string, std::string>& files,
-                   Verification& outcome) {
+void write_verdict(ResultFolder& folder, const PartStamp& part, const FileTexts& files, Verification& outcome) {
   if (!folder.writable()) {
     outcome.notes.push_back(folder.path() + " is not writable: the verdict is printed, but not stored there");
     return;
@@ -148,6 +147,8 @@ Verification judge_path(const VerifyJob& request, const Job& job, const std::str
   outcome.report = judge_job(setup, job.judge, tool, path);
   const ClearanceScene scene = make_clearance_scene(setup, job.obstacles, has_body(tool), outcome.notes);
   measure_bodies(scene, tool, path, outcome.report);
+  const std::vector<std::string>& caveats = outcome.report.clearance.notes;
+  outcome.notes.insert(outcome.notes.end(), caveats.begin(), caveats.end());
   const FolderStock stock = replay_stock(job, setup, tool, path, file("blank.json"), outcome);
   std::optional<BendingTool> bending;
   if (request.bending.on) {
@@ -160,10 +161,9 @@ Verification judge_path(const VerifyJob& request, const Job& job, const std::str
   const double chord_mm = kToleranceBudget.chord * setup.tolerance_mm;
   accept_bends(job, least_bend_radii(path, tool.radial.axis_length(), chord_mm), outcome.acceptance);
   judge_steps(request.folder, plan, setup, path, outcome);
-  std::map<std::string, std::string> files{
-      {"verify.json", verify_to_json(outcome.report, outcome.acceptance)},
-      {"view.json",
-       view_to_json(make_view(outcome.job, setup, tool, path, outcome.report, bending ? bending->errors() : nullptr))}};
+  FileTexts files{{"verify.json", verify_to_json(outcome.report, outcome.acceptance)},
+                  {"view.json", view_to_json(make_view(outcome.job, setup, tool, path, outcome.report,
+                                                       bending ? bending->errors() : nullptr))}};
   if (!stock.engagement.empty()) files["engagement.json"] = engagement_to_json(stock.engagement, stock.arcs);
   write_verdict(folder, {absolute(request.part ? *request.part : named), setup.part.sha256}, files, outcome);
   return outcome;

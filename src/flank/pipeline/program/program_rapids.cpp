@@ -159,7 +159,7 @@ void accept_rapids(const std::string& file, const Setup& setup, const ObstacleRe
   std::vector<std::string> notes;  // the verdict of the program has told them
   ClearanceScene scene = make_clearance_scene(setup, obstacles, true, notes);
   // Of a rapid nothing may touch anything: the flank the target as little as the holder a fixture.
-  for (Obstacle& obstacle : scene.obstacles) obstacle.role = ObstacleRole::kFixture;
+  scene.obstacles = scene.obstacles.as_fixtures();
   scene.options.required_mm = room;
   RapidPieces pieces(rapids);
   for (std::size_t poses = kFirstPoses; !pieces.done(); poses *= 2)

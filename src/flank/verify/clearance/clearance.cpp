@@ -4,13 +4,16 @@
 #include <array>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "flank/base/parallel.h"
 #include "flank/error.h"
-#include "flank/geom/tessellate.h"
 #include "flank/verify/clearance/flank_profile.h"
 #include "flank/verify/clearance/motion_gap.h"
+#include "flank/verify/clearance/obstacle_set.h"
 #include "flank/verify/swept/pose_tree.h"
 
 namespace flank {
@@ -20,29 +23,6 @@ namespace {
 using namespace internal::verify;
 
 constexpr std::array kRoles{ObstacleRole::kTarget, ObstacleRole::kPart, ObstacleRole::kFixture};
-
-/// All obstacles of one role as one mesh that remembers where its triangles come from.
-struct Scene {
-  ObstacleRole role = ObstacleRole::kPart;
-  ObstacleTree tree;
-  std::vector<int> obstacle_of;  ///< of each triangle
-  double deviation_mm = 0.0;
-};
-
-Scene scene_of(const std::vector<Obstacle>& obstacles, ObstacleRole role) {
-  Scene scene;
-  scene.role = role;
-  TriangleMesh all;
-  for (std::size_t k = 0; k < obstacles.size(); ++k) {
-    const Obstacle& o = obstacles[k];
-    if (o.role != role || o.mesh.triangles.empty()) continue;
-    append(all, o.mesh);
-    scene.obstacle_of.resize(all.triangles.size(), static_cast<int>(k));
-    scene.deviation_mm = std::max(scene.deviation_mm, o.deviation_mm);
-  }
-  scene.tree = ObstacleTree(all);
-  return scene;
-}
 
 struct Body {
   ToolBody name = ToolBody::kShank;
@@ -69,23 +49,60 @@ double requirement(const ClearanceOptions& options, ToolBody body, ObstacleRole 
   return left + (body == ToolBody::kHolder || body == ToolBody::kAxis ? 0.0 : -options.tolerance_mm);
 }
 
-ClearanceFigure measure(const Body& body, const Scene& scene, const std::vector<Obstacle>& obstacles,
-                        const std::vector<Segment>& segments, const ClearanceOptions& options) {
+/// A body on its way, against the obstacles of one role.
+struct Pair {
+  const Body& body;
+  ObstacleRole role;
+  const ObstacleStore& obstacles;
+  const std::vector<Segment>& segments;
+  std::vector<Box3> boxes = sweep_boxes(body.parts, segments);
+};
+
+/// The obstacles that are looked at first, mm; then those within four times as much, until nothing nearer can be left. Where nothing is said of
+/// the radius, there is nothing to measure.
+double first_reach(const Body& body) {
+  double radius = 0.0;
+  for (const Revolved& part : body.parts)
+    for (const Vec2& c : part.corners()) radius = std::max(radius, c.y() + part.rounding());
+  return std::max(radius, kPoseClearanceMm);
+}
+constexpr double kFarther = 4.0;
+
+/// What is nearest, and the obstacles that it is one of.
+struct Nearest {
+  GapPlace place;
+  std::shared_ptr<const ObstacleScene> scene;
+};
+
+Nearest nearest_of(const Pair& pair, double accuracy_mm) {
+  for (double reach = first_reach(pair.body);; reach *= kFarther) {
+    const double limit = std::min(reach, pair.body.limit_mm);
+    auto scene = pair.obstacles.near(pair.role, pair.boxes, limit);
+    const bool last = scene->whole || limit >= pair.body.limit_mm;
+    GapPlace place;
+    if (!scene->tree.empty())
+      place =
+          MotionGap(pair.body.parts, scene->tree, pair.segments).least(accuracy_mm, last ? pair.body.limit_mm : limit);
+    if (place.segment >= 0 || last) return {place, std::move(scene)};
+  }
+}
+
+ClearanceFigure measure(const Pair& pair, const ClearanceOptions& options) {
   ClearanceFigure figure;
-  figure.body = body.name;
-  figure.role = scene.role;
-  figure.required_mm = requirement(options, body.name, scene.role);
-  const GapPlace place = MotionGap(body.parts, scene.tree, segments).least(options.accuracy_mm, body.limit_mm);
+  figure.body = pair.body.name;
+  figure.role = pair.role;
+  figure.required_mm = requirement(options, pair.body.name, pair.role);
+  const auto [place, scene] = nearest_of(pair, options.accuracy_mm);
   if (place.segment < 0) {
     figure.clearance_mm = std::numeric_limits<double>::infinity();
     return figure;
   }
-  const Segment& segment = segments[static_cast<std::size_t>(place.segment)];
+  const Segment& segment = pair.segments[static_cast<std::size_t>(place.segment)];
   figure.clearance_mm = place.value;
-  figure.bound_mm = gap_bound(place.value, options.accuracy_mm) + body.deviation_mm + scene.deviation_mm;
+  figure.bound_mm = gap_bound(place.value, options.accuracy_mm) + pair.body.deviation_mm + scene->deviation_mm;
   figure.kept = figure.clearance_mm - figure.bound_mm >= figure.required_mm;
-  const int obstacle = scene.obstacle_of[static_cast<std::size_t>(place.triangle)];
-  figure.obstacle = obstacles[static_cast<std::size_t>(obstacle)].name;
+  figure.obstacle_index = scene->obstacle_of[static_cast<std::size_t>(place.triangle)];
+  figure.obstacle = pair.obstacles.made(figure.obstacle_index).name;
   figure.point = place.point;
   figure.strip = segment.strip;
   figure.t = segment.pose + place.tau;
@@ -95,10 +112,9 @@ ClearanceFigure measure(const Body& body, const Scene& scene, const std::vector<
 }
 
 /// Nothing of the obstacles is farther from any point of the tool.
-double farthest(const std::vector<Obstacle>& obstacles, const Path& path) {
+double farthest(const ObstacleSet& obstacles, const Path& path) {
   Box3 box;
-  for (const Obstacle& o : obstacles)
-    for (const Vec3& p : o.mesh.vertices) box.add(p);
+  for (const DistantObstacle& o : obstacles.obstacles()) box.add(o.box);
   for (const Strip& strip : path.strips)
     for (const Pose& pose : strip.poses) box.add(pose.tip);
   return box.diagonal();
@@ -108,33 +124,61 @@ double spare(const ClearanceFigure& f) { return f.clearance_mm - f.bound_mm - f.
 
 /// The figure of the role of which least is spare. Of a fixture only shank and holder themselves say what is in their way: it may
 /// stand anywhere beyond them.
-ClearanceFigure tightest(const Body& body, const std::array<Scene, kRoles.size()>& scenes,
-                         const std::vector<Obstacle>& obstacles, const std::vector<Segment>& segments,
+ClearanceFigure tightest(const Body& body, const ObstacleSet& obstacles, const std::vector<Segment>& segments,
                          const ClearanceOptions& options) {
   std::optional<ClearanceFigure> least;
-  for (const Scene& scene : scenes) {
-    if (scene.tree.empty() || scene.role == ObstacleRole::kFixture) continue;
-    const ClearanceFigure here = measure(body, scene, obstacles, segments, options);
+  for (const ObstacleRole role : kRoles) {
+    if (!store_of(obstacles).has(role) || role == ObstacleRole::kFixture) continue;
+    const ClearanceFigure here = measure({body, role, store_of(obstacles), segments}, options);
     if (!least || spare(here) < spare(*least)) least = here;
   }
   return *least;
 }
 
+/// The clearances at the poses of one segment each: of its first one, at the end of a strip of both of its ends.
+struct PosesOf {
+  int segment = 0;
+  double* poses = nullptr;  ///< one, or two
+  int count = 1;
+};
+
+std::vector<PosesOf> poses_of(const std::vector<Segment>& segments, std::vector<std::vector<double>>& by_strip) {
+  std::vector<PosesOf> all;
+  for (std::size_t k = 0; k < segments.size(); ++k) {
+    std::vector<double>& poses = by_strip[static_cast<std::size_t>(segments[k].strip)];
+    const auto first = static_cast<std::size_t>(segments[k].pose);
+    const bool ends = k + 1 == segments.size() || segments[k + 1].strip != segments[k].strip;
+    all.push_back({static_cast<int>(k), &poses[first],
+                   static_cast<int>(std::min(poses.size() - first, std::size_t{ends ? 2u : 1u}))});
+  }
+  return all;
+}
+
 /// Lowers the clearance of every pose to that of this pair.
-void lower_to(std::vector<std::vector<double>>& by_strip, const Body& body, const Scene& scene,
-              const std::vector<Segment>& segments) {
+void lower_to(std::vector<std::vector<double>>& by_strip, const Pair& pair) {
   constexpr std::size_t kGrain = 16;  // segments per task; each is one query of a tree
-  const MotionGap gap(body.parts, scene.tree, segments);
-  parallel_blocks(segments.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      std::vector<double>& poses = by_strip[static_cast<std::size_t>(segments[k].strip)];
-      const auto first = static_cast<std::size_t>(segments[k].pose);
-      // Each segment answers for its first pose, the last one of a strip for both of its ends.
-      const bool ends = k + 1 == segments.size() || segments[k + 1].strip != segments[k].strip;
-      for (std::size_t i = first; i < std::min(poses.size(), first + (ends ? 2 : 1)); ++i)
-        poses[i] = gap.at(static_cast<int>(k), i == first ? 0.0 : 1.0, kPoseClearanceMm, poses[i]);
+  std::vector<PosesOf> open = poses_of(pair.segments, by_strip);
+  for (double reach = first_reach(pair.body); !open.empty(); reach *= kFarther) {
+    const auto scene = pair.obstacles.near(pair.role, pair.boxes, reach);
+    const double limit = scene->whole ? std::numeric_limits<double>::max() : reach;
+    if (!scene->tree.empty()) {
+      const MotionGap gap(pair.body.parts, scene->tree, pair.segments);
+      parallel_blocks(open.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k)
+          for (int i = 0; i < open[k].count; ++i) {
+            double& least = open[k].poses[i];
+            const double below = std::min(least, limit);
+            const double here = gap.at(open[k].segment, i, kPoseClearanceMm, below);
+            if (here < below) least = here;
+          }
+      });
     }
-  });
+    if (scene->whole) return;
+    // What is not nearer than the reach may be nearer to something that was not looked at.
+    std::erase_if(open, [&](const PosesOf& of) {
+      return std::all_of(of.poses, of.poses + of.count, [&](double least) { return least < reach; });
+    });
+  }
 }
 
 }  // namespace
@@ -162,68 +206,80 @@ namespace {
 
 /// What is measured of a tool on a path: each body against the obstacles of each role.
 struct Pairs {
+  const ObstacleStore& obstacles;  ///< must outlive this
   std::vector<Segment> segments;
-  std::array<Scene, kRoles.size()> scenes;
   std::vector<Body> bodies;
 
-  Pairs(const Tool& tool, const Path& path, const std::vector<Obstacle>& obstacles, const ClearanceOptions& options) {
+  Pairs(const Tool& tool, const Path& path, const ObstacleSet& of, const ClearanceOptions& options)
+      : obstacles(store_of(of)) {
     if (!(options.accuracy_mm > 0.0) || !(options.tolerance_mm > 0.0))
       throw UsageError("clearance: accuracy and tolerance must be > 0 mm");
     segments = PoseTree(path, tool.radial.axis_length(), 1e300).segments;
-    for (std::size_t k = 0; k < kRoles.size(); ++k) scenes[k] = scene_of(obstacles, kRoles[k]);
     bodies = bodies_of(tool);
   }
 
   /// Until a call says that it is enough.
-  void each(const std::function<bool(const Body&, const Scene&)>& call) const {
+  void each(const std::function<bool(const Pair&)>& call) const {
     for (const Body& body : bodies)
-      for (const Scene& scene : scenes) {
-        const bool judged_elsewhere = body.name == ToolBody::kFlank && scene.role != ObstacleRole::kFixture;
-        if (!body.parts.empty() && !scene.tree.empty() && !judged_elsewhere && !call(body, scene)) return;
+      for (const ObstacleRole role : kRoles) {
+        const bool judged_elsewhere = body.name == ToolBody::kFlank && role != ObstacleRole::kFixture;
+        if (body.parts.empty() || !obstacles.has(role) || judged_elsewhere) continue;
+        if (!call({body, role, obstacles, segments})) return;
       }
   }
 };
 
+void note_caveats(const ObstacleStore& obstacles, ClearanceReport& report) {
+  std::set<int> told;
+  for (const ClearanceFigure& figure : report.figures) {
+    if (figure.obstacle_index < 0 || !told.insert(figure.obstacle_index).second) continue;
+    const std::string& caveat = obstacles.made(figure.obstacle_index).caveat;
+    if (!caveat.empty()) report.notes.push_back(caveat);
+  }
+}
+
 }  // namespace
 
-ClearanceReport judge_clearance(const Tool& tool, const Path& path, const std::vector<Obstacle>& obstacles,
+ClearanceReport judge_clearance(const Tool& tool, const Path& path, const ObstacleSet& obstacles,
                                 const ClearanceOptions& options) {
   const Pairs pairs(tool, path, obstacles, options);
   ClearanceReport report;
   for (const Strip& strip : path.strips)
     report.pose_clearance_mm.emplace_back(strip.poses.size(), std::numeric_limits<double>::infinity());
-  pairs.each([&](const Body& body, const Scene& scene) {
-    report.figures.push_back(measure(body, scene, obstacles, pairs.segments, options));
-    if (!may_touch(body.name, scene.role)) lower_to(report.pose_clearance_mm, body, scene, pairs.segments);
+  pairs.each([&](const Pair& pair) {
+    report.figures.push_back(measure(pair, options));
+    if (!may_touch(pair.body.name, pair.role)) lower_to(report.pose_clearance_mm, pair);
     return true;
   });
+  note_caveats(store_of(obstacles), report);
   return report;
 }
 
-bool keeps_clear(const Tool& tool, const Path& path, const std::vector<Obstacle>& obstacles,
-                 const ClearanceOptions& options, double shank_least_mm) {
+bool keeps_clear(const Tool& tool, const Path& path, const ObstacleSet& obstacles, const ClearanceOptions& options,
+                 double shank_least_mm) {
   const Pairs pairs(tool, path, obstacles, options);
   bool kept = true;
-  pairs.each([&](const Body& body, const Scene& scene) {
-    double least = requirement(options, body.name, scene.role);
-    if (body.name == ToolBody::kShank) least = std::max(least, shank_least_mm);
-    least += body.deviation_mm + scene.deviation_mm;
-    kept = MotionGap(body.parts, scene.tree, pairs.segments).stays_above(least, options.accuracy_mm);
+  pairs.each([&](const Pair& pair) {
+    double least = requirement(options, pair.body.name, pair.role);
+    if (pair.body.name == ToolBody::kShank) least = std::max(least, shank_least_mm);
+    // What is farther than that is clear of the body, however well it is known.
+    const auto scene =
+        pair.obstacles.near(pair.role, pair.boxes, std::max(0.0, least) + pair.body.deviation_mm + options.accuracy_mm);
+    if (scene->tree.empty()) return true;
+    least += pair.body.deviation_mm + scene->deviation_mm;
+    kept = MotionGap(pair.body.parts, scene->tree, pair.segments).stays_above(least, options.accuracy_mm);
     return kept;
   });
   return kept;
 }
 
-std::optional<HoldReport> judge_hold(const Tool& tool, const Path& path, const std::vector<Obstacle>& obstacles,
+std::optional<HoldReport> judge_hold(const Tool& tool, const Path& path, const ObstacleSet& obstacles,
                                      const ClearanceOptions& options) {
   constexpr double kAccuracyShare =
       0.02;  // of the upper end's radius: whether something is in the way, not by how much
   const Vec2 top = meridian_point(tool.radial, tool.radial.axis_length());
   const std::vector<Segment> segments = PoseTree(path, tool.radial.axis_length(), 1e300).segments;
-  std::array<Scene, kRoles.size()> scenes;
-  for (std::size_t k = 0; k < kRoles.size(); ++k) scenes[k] = scene_of(obstacles, kRoles[k]);
-  const bool something = std::any_of(
-      scenes.begin(), scenes.end(), [](const Scene& s) { return !s.tree.empty() && s.role != ObstacleRole::kFixture; });
+  const bool something = store_of(obstacles).has(ObstacleRole::kTarget) || store_of(obstacles).has(ObstacleRole::kPart);
   if (segments.empty() || !something || !(top.y() > 0.0)) return std::nullopt;
   const auto cylinder = [&](ToolBody name, double radius, double length, double limit) {
     return Body{name, convex_bodies({{top.x(), radius}, {top.x() + length, radius}}), 0.0, limit};
@@ -233,11 +289,10 @@ std::optional<HoldReport> judge_hold(const Tool& tool, const Path& path, const s
   coarse.required_mm = -1.0;  // a clearance is asked of shank and holder, not of what stands for them here
   HoldReport report;
   const double beyond = farthest(obstacles, path) + tool.radial.axis_length();
-  report.axis =
-      tightest(cylinder(ToolBody::kAxis, kRodShare * top.y(), beyond, top.y()), scenes, obstacles, segments, coarse);
+  report.axis = tightest(cylinder(ToolBody::kAxis, kRodShare * top.y(), beyond, top.y()), obstacles, segments, coarse);
   if (tool.shank.empty())
     report.as_thick =
-        tightest(cylinder(ToolBody::kShank, top.y(), 2.0 * top.y(), top.y()), scenes, obstacles, segments, coarse);
+        tightest(cylinder(ToolBody::kShank, top.y(), 2.0 * top.y(), top.y()), obstacles, segments, coarse);
   return report;
 }
 
