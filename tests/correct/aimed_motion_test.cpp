@@ -54,6 +54,19 @@ TEST_F(AimedMotion, BeginsAtTheMotionOfThePath) {
     EXPECT_LT(std::abs(left(problem_.motions, sample.point)), 0.1 * kTolerance);
 }
 
+/// What a strip's last pose leaves at the border is the plan's doing. A motion that runs on cuts more there.
+TEST_F(AimedMotion, EndsWhereTheStripEnds) {
+  Path part = path_;
+  std::vector<Pose>& poses = part.strips.front().poses;
+  poses.resize(poses.size() * 2 / 3);
+  const double length = problem_.tool.axis_length();
+  const RuledMotion motion = motions_through(part, length, 0.02 * kTolerance).front();
+  for (const auto& [pose, wanted] : {std::pair(motion.pose(0.0), poses.front()), {motion.pose(1.0), poses.back()}}) {
+    EXPECT_LT((pose.tip - wanted.tip).norm(), 0.02 * kTolerance);
+    EXPECT_LT((pose.at(length) - wanted.at(length)).norm(), 0.02 * kTolerance);
+  }
+}
+
 TEST_F(AimedMotion, WithoutAnErrorTheMotionStays) {
   problem_.less_mm = [](const Vec3&) { return 0.0; };
   const AimedMotions aimed = aimed_motions(problem_);
