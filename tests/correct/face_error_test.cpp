@@ -72,7 +72,7 @@ class FaceErrorTest : public testing::Test {
 TEST_F(FaceErrorTest, IsWhatTheCutLeft) {
   for (const int count : {200, 1000, 5000}) {
     const FaceError error = of(scanned(face_, count, {.noise = 0.002}, 1), false);
-    EXPECT_NEAR(error.noise_mm, 0.002, 0.0005) << count;
+    EXPECT_NEAR(error.field.noise_mm, 0.002, 0.0005) << count;
     double worst = 0.0;
     for (const double u : {0.1, 0.3, 0.5, 0.7, 0.9})
       for (const double v : {0.1, 0.5, 0.9}) worst = std::max(worst, std::abs(error.at(u, v) - deflection(u, v)));
@@ -88,8 +88,11 @@ TEST_F(FaceErrorTest, IsWhatTheMachineAddsToThePlan) {
     const Footpoint foot = target_->closest(p);
     p += planned(foot.point) * foot.normal;
   }
-  const FaceError error = face_error(
-      *target_, face_, points, {.fit_datum = false, .limit_mm = 1.0, .planned_mm = planned, .file = "points.csv"});
+  const FaceError error = face_error(*target_, face_, points,
+                                     {.fit_datum = false,
+                                      .limit_mm = 1.0,
+                                      .planned_mm = [&](const Vec3& p) { return std::vector{planned(p)}; },
+                                      .file = "points.csv"});
   EXPECT_NEAR(error.at(0.5, 0.5), deflection(0.5, 0.5), 5e-4);
   EXPECT_GT(error.planned_rms_mm, 0.03);
 }

@@ -44,7 +44,7 @@ Json error_entry(const FaceError& error) {
           {"rms_after_best_fit_mm", error.rms_after_mm},
           {"taken_away_by_best_fit", taken_away(error)},
           {"planned_rms_mm", error.planned_rms_mm},
-          {"noise_mm", error.noise_mm},
+          {"noise_mm", error.field.noise_mm},
           {"smooth_rms_mm", error.smooth_rms_mm},
           {"smooth_largest_mm", error.smooth_largest_mm},
           {"limit_mm", error.limit_mm},
@@ -75,7 +75,7 @@ std::string ground_text(const GroundTool& ground) {
 
 std::string error_text(const FaceError& error) {
   std::string text = fmt::format("Face as cut: {} points on the face, {} off it; noise {:.4f} mm\n",
-                                 error.points.size(), error.beside, error.noise_mm);
+                                 error.points.size(), error.beside, error.field.noise_mm);
   text +=
       fmt::format("  the planned path itself leaves {:.4f} mm rms at these points; the errors below are without it\n",
                   error.planned_rms_mm);

@@ -156,29 +156,36 @@ int single_face(const Setup& setup, const std::string& folder) {
   return setup.targets.front();
 }
 
-/// The part with the mirrored face in the place of its own. Sheets: the machined side is where their normals point.
-void write_mirrored(const Setup& setup, int face, const FaceError& error, const std::string& file) {
-  std::vector<Face> faces;
-  for (const Face& other : setup.part.faces) faces.push_back(other);
-  Face& mirrored = faces[static_cast<std::size_t>(face)];
-  mirrored = mirrored_face(mirrored, error, mirrored.reversed ? -1 : 1);
-  write_step(file, faces);
-}
-
-/// The motions of the old path, and what they leave at a point.
+/// The motions of the old path, and what each of them leaves at a point.
 struct Planned {
   std::vector<RuledMotion> motions;
-  SweptEstimate swept;
-  [[nodiscard]] double left_at(const Vec3& p) const { return swept.refine(p, swept.nearest(p)).f; }
+  std::vector<SweptEstimate> swept;
+  [[nodiscard]] std::vector<double> left_at(const Vec3& p) const {
+    std::vector<double> left;
+    for (const SweptEstimate& pass : swept) left.push_back(pass.refine(p, pass.nearest(p)).f);
+    return left;
+  }
 };
 
 Planned planned(const Earlier& earlier, double tolerance_mm) {
   constexpr double kNear = 0.02;  // of the tolerance: the poses themselves are joined by chords that are farther off
   constexpr int kDenser = 4;      // poses of its table, for each control point of a rail
   const RadialFunction& radial = earlier.tool.radial;
-  std::vector<RuledMotion> motions = motions_through(earlier.path, radial.axis_length(), kNear * tolerance_mm);
-  const int poses = kDenser * motions.front().tip.count();
-  return {motions, SweptEstimate(motions, radial, poses)};
+  Planned out;
+  out.motions = motions_through(earlier.path, radial.axis_length(), kNear * tolerance_mm);
+  for (const RuledMotion& motion : out.motions)
+    out.swept.emplace_back(std::vector<RuledMotion>{motion}, radial, kDenser * motion.tip.count());
+  return out;
+}
+
+/// The part with the mirrored face in the place of its own. Sheets: the machined side is where their normals point.
+void write_mirrored(const Setup& setup, int face, const FaceError& error, const Planned& old, const std::string& file) {
+  std::vector<Face> faces;
+  for (const Face& other : setup.part.faces) faces.push_back(other);
+  Face& mirrored = faces[static_cast<std::size_t>(face)];
+  mirrored =
+      mirrored_face(mirrored, error, mirrored.reversed ? -1 : 1, [&old](const Vec3& p) { return old.left_at(p); });
+  write_step(file, faces);
 }
 
 FaceError measured_error(const Setup& setup, const TargetGroup& group, const CorrectJob& job, const Planned& old) {
@@ -200,10 +207,10 @@ AimedMotions aimed_against(const FaceError& error, const Setup& setup, const Tar
   problem.tool = earlier.tool.radial;
   problem.tolerance_mm = setup.tolerance_mm;
   const BSplineSurface& s = setup.part.faces[static_cast<std::size_t>(group.indices.front())].surface;
-  problem.less_mm = [&](const Vec3& p) {
+  problem.added_mm = [&](const Vec3& p, std::size_t pass) {
     const Footpoint foot = problem.target->closest(p);
-    return error.at((foot.u - s.u_first()) / (s.u_last() - s.u_first()),
-                    (foot.v - s.v_first()) / (s.v_last() - s.v_first()));
+    return error.of_pass(pass, (foot.u - s.u_first()) / (s.u_last() - s.u_first()),
+                         (foot.v - s.v_first()) / (s.v_last() - s.v_first()));
   };
   return aimed_motions(problem);
 }
@@ -236,7 +243,7 @@ void as_cut(Earlier& earlier, const std::string& output, const Progress& progres
   correction.error = measured_error(setup, groups.front(), correction.job, old);
   make_folder(output);
   const std::string mirrored = in(output, "mirrored.step");
-  write_mirrored(setup, face, *correction.error, mirrored);
+  write_mirrored(setup, face, *correction.error, old, mirrored);
   progress.step("correct", 0.3);
   AimedMotions aimed = aimed_against(*correction.error, setup, groups.front(), earlier, old.motions);
   progress.step("verify", 0.6);

@@ -2,13 +2,11 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <span>
+#include <utility>
 
 #include "flank/base/parallel.h"
 #include "flank/error.h"
-#include "flank/surface/mesh/scattered_spline.h"
 
 namespace flank::internal {
 namespace {
@@ -17,29 +15,26 @@ constexpr std::size_t kFewest = 100;  ///< points on the face
 constexpr double kFar = 0.05;         ///< share of the face's diagonal: no face as cut is that far off
 constexpr double kMostBeside = 0.5;   ///< share of the points that may lie beside the face
 constexpr double kLeastSeen = 0.9;    ///< share of the face's area that must have a point near
-constexpr double kOutlier = 5.0;      ///< standard deviations
 constexpr double kFlat = 1e-4;        ///< mm; errors below it are all of one weight
-constexpr int kMoves = 16, kRounds = 5;
+constexpr int kMoves = 16;
 constexpr int kMirrorDegree = 3;  ///< at least: the error's spline has it
-constexpr std::array<int, 6> kCounts = {4, 5, 7, 10, 14, 20};
 
 [[noreturn]] void refuse(const FaceErrorOptions& options, const std::string& why) {
   throw InputError(options.file + ": " + why);
 }
 
-/// Middle of the absolute values, as a standard deviation.
-double typical(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  for (double& value : values) value = std::abs(value);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return 1.4826 * *middle;
+/// What each pass of the plan leaves there; nothing where none is given.
+std::vector<double> planned_at(const Vec3& p, const FaceErrorOptions& options) {
+  return options.planned_mm ? options.planned_mm(p) : std::vector<double>(1, 0.0);
 }
+
+double least(const std::vector<double>& values) { return *std::min_element(values.begin(), values.end()); }
 
 double planned_rms(const Target& target, const std::vector<MeasuredPoint>& points, const FaceErrorOptions& options) {
   if (!options.planned_mm || points.empty()) return 0.0;
   double sum = 0.0;
-  for (const MeasuredPoint& point : points) sum += std::pow(options.planned_mm(target.closest(point.point).point), 2);
+  for (const MeasuredPoint& point : points)
+    sum += std::pow(least(planned_at(target.closest(point.point).point, options)), 2);
   return std::sqrt(sum / static_cast<double>(points.size()));
 }
 
@@ -57,7 +52,7 @@ std::vector<Footpoint> footpoints(const Target& target, const std::vector<Vec3>&
   std::vector<Footpoint> feet(points.size());
   parallel_for(points.size(), [&](std::size_t k) {
     feet[k] = target.closest_within(move.of(points[k]), kFar * target.diagonal());
-    if (options.planned_mm && on_face(feet[k])) feet[k].distance -= options.planned_mm(feet[k].point);
+    if (on_face(feet[k])) feet[k].distance -= least(planned_at(feet[k].point, options));
   });
   return feet;
 }
@@ -107,6 +102,20 @@ std::vector<MeasuredPoint> measured(const Face& face, const std::vector<Vec3>& p
   return all;
 }
 
+std::vector<double> above_least(std::vector<double> values) {
+  const double lowest = least(values);
+  for (double& value : values) value -= lowest;
+  return values;
+}
+
+void add_passes(const std::vector<Footpoint>& feet, const FaceErrorOptions& options,
+                std::vector<MeasuredPoint>& points) {
+  parallel_for(points.size(), [&](std::size_t k) {
+    const Footpoint& foot = feet[static_cast<std::size_t>(points[k].index)];
+    points[k].higher_mm = above_least(planned_at(foot.point, options));
+  });
+}
+
 /// Every part of the face must have a measured point near.
 void require_seen(const Target& target, const std::vector<MeasuredPoint>& points, const FaceErrorOptions& options) {
   const double spacing = std::sqrt(target.area() / static_cast<double>(points.size()));
@@ -123,65 +132,6 @@ void require_seen(const Target& target, const std::vector<MeasuredPoint>& points
   if (seen < kLeastSeen * whole)
     refuse(options, "the points cover only " + std::to_string(static_cast<int>(100.0 * seen / whole)) +
                         " % of the face; measure points all over it");
-}
-
-struct Field {
-  BSplineSurface surface;
-  double noise = 0.0, score = 0.0;
-};
-
-Field fit_field(const std::vector<MeasuredPoint>& points, int count) {
-  std::vector<Vec3> values;
-  std::vector<Vec2> parameters;
-  for (const MeasuredPoint& point : points) {
-    values.emplace_back(point.error_mm, 0.0, 0.0);
-    parameters.emplace_back(point.u, point.v);
-  }
-  Field field;
-  field.surface =
-      fit_scattered(values, parameters, {.degree = 3, .count_u = count, .count_v = count, .smoothing = 1e-4});
-  double square = 0.0;
-  for (const MeasuredPoint& point : points)
-    square += std::pow(point.error_mm - field.surface.value(point.u, point.v).x(), 2);
-  const auto n = static_cast<double>(points.size()), unknowns = static_cast<double>(count * count);
-  field.noise = std::sqrt(square / (n - unknowns));
-  field.score = square / n / std::pow(1.0 - unknowns / n, 2);
-  return field;
-}
-
-Field best_field(const std::vector<MeasuredPoint>& points) {
-  Field best = fit_field(points, kCounts.front());
-  for (const int count : kCounts) {
-    if (static_cast<std::size_t>(3 * count * count) > points.size()) break;
-    Field field = fit_field(points, count);
-    if (field.score < 0.98 * best.score) best = std::move(field);
-  }
-  return best;
-}
-
-/// The smooth error, without points that are far off it. Each round asks all points again: the first field is bent by those that do not belong.
-void smooth(FaceError& error) {
-  const std::vector<MeasuredPoint> all = error.points;
-  for (int round = 0; round < kRounds; ++round) {
-    const Field field = best_field(error.points);
-    error.field = field.surface;
-    error.noise_mm = field.noise;
-    std::vector<double> rest;
-    for (const MeasuredPoint& point : all) rest.push_back(point.error_mm - field.surface.value(point.u, point.v).x());
-    const double most = kOutlier * std::max(typical(rest), 1e-7);
-    std::vector<MeasuredPoint> kept;
-    std::vector<int> outliers;
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      if (std::abs(rest[k]) <= most)
-        kept.push_back(all[k]);
-      else
-        outliers.push_back(all[k].index);
-    }
-    const bool settled = round > 0 && outliers == error.outliers;
-    error.outliers = std::move(outliers);
-    if (settled) break;
-    error.points = std::move(kept);
-  }
 }
 
 /// Knots of a space of a degree (at least the old one) that holds what the old knots hold, with spans of at most an eighth.
@@ -219,8 +169,13 @@ void require_this_face(std::size_t on, std::size_t all, const FaceErrorOptions& 
 
 double RigidMove::angle() const { return Eigen::AngleAxisd(turn).angle(); }
 
-double FaceError::at(double u, double v) const {
-  return std::clamp(field.value(std::clamp(u, 0.0, 1.0), std::clamp(v, 0.0, 1.0)).x(), -limit_mm, limit_mm);
+double FaceError::of_pass(std::size_t pass, double u, double v) const {
+  return std::clamp(field.of_pass(pass, u, v), -limit_mm, limit_mm);
+}
+
+double FaceError::at(double u, double v, const std::vector<double>& planned_mm) const {
+  const std::vector<double> higher = planned_mm.empty() ? planned_mm : above_least(planned_mm);
+  return std::clamp(field.at(u, v, higher), -limit_mm, limit_mm);
 }
 
 FaceError face_error(const Target& target, const Face& face, const std::vector<Vec3>& points,
@@ -241,10 +196,14 @@ FaceError face_error(const Target& target, const Face& face, const std::vector<V
   error.beside = static_cast<int>(points.size() - error.points.size());
   error.rms_after_mm = rms(error.points);
   require_seen(target, error.points, options);
-  smooth(error);
+  add_passes(feet, options, error.points);
+  SmoothedError smoothed = smoothed_error(error.points);
+  error.field = std::move(smoothed.field);
+  error.points = std::move(smoothed.points);
+  error.outliers = std::move(smoothed.outliers);
   double square = 0.0;
   for (const MeasuredPoint& point : error.points) {
-    const double raw = error.field.value(point.u, point.v).x();
+    const double raw = error.field.at(point.u, point.v, point.higher_mm);
     error.limited = error.limited || std::abs(raw) > options.limit_mm;
     square += raw * raw;
     error.smooth_largest_mm = std::max(error.smooth_largest_mm, std::abs(raw));
@@ -254,7 +213,7 @@ FaceError face_error(const Target& target, const Face& face, const std::vector<V
   return error;
 }
 
-Face mirrored_face(const Face& face, const FaceError& error, int side) {
+Face mirrored_face(const Face& face, const FaceError& error, int side, const PlannedLeft& planned_mm) {
   // The sum of face and error in a space that holds both: a ruled face, or one of few control points, has none for the error.
   const BSplineSurface& old = face.surface;
   Face mirrored = face;
@@ -268,7 +227,8 @@ Face mirrored_face(const Face& face, const FaceError& error, int side) {
       const SurfaceJet jet = old.jet(u, v);
       const Vec3 normal = side * jet.du.cross(jet.dv);
       const double e = error.at((u - old.u_first()) / (old.u_last() - old.u_first()),
-                                (v - old.v_first()) / (old.v_last() - old.v_first()));
+                                (v - old.v_first()) / (old.v_last() - old.v_first()),
+                                planned_mm ? planned_mm(jet.p) : std::vector<double>());
       points.push_back(normal.norm() > 0.0 ? Vec3(jet.p - e * normal.normalized()) : jet.p);
     }
   s = interpolate_grid(points, knots_u, knots_v, degree_u, degree_v);

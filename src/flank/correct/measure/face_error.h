@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "flank/bspline_surface.h"
+#include "flank/correct/measure/error_field.h"
 #include "flank/target.h"
 
 namespace flank::internal {
@@ -18,20 +19,15 @@ struct RigidMove {
   [[nodiscard]] double angle() const;  ///< radians
 };
 
+/// What each pass of the plan leaves at a point of the face, mm. Called from several threads at once.
+using PlannedLeft = std::function<std::vector<double>(const Vec3&)>;
+
 struct FaceErrorOptions {
   bool fit_datum = true;  ///< the points are moved onto the face as well as six degrees of freedom do it
   double limit_mm = 1.0;  ///< an error beyond it is taken as this large
-  /// What the plan leaves at a point of the face, mm: no error of the machine. Called from several threads at once. Empty: nothing.
-  std::function<double(const Vec3&)> planned_mm;
+  /// The least of it is what the plan leaves: no error of the machine. Empty: one pass that leaves nothing.
+  PlannedLeft planned_mm;
   std::string file;  ///< for messages
-};
-
-/// A measured point on the face.
-struct MeasuredPoint {
-  int index = 0;            ///< of the point in the file
-  Vec3 point;               ///< where it is taken to be
-  double u = 0.0, v = 0.0;  ///< of its nearest point, from 0 to 1 over the face's domain
-  double error_mm = 0.0;    ///< along the normal, beyond what the plan leaves; positive: material is left
 };
 
 struct FaceError {
@@ -41,13 +37,14 @@ struct FaceError {
   int beside = 0;                                       ///< points that lie beside the face
   double rms_before_mm = 0.0, rms_after_mm = 0.0;       ///< of the error: as measured, after the move
   double planned_rms_mm = 0.0;                          ///< of what the plan leaves at the points that count
-  double noise_mm = 0.0;                                ///< of the points, standard deviation, estimated
   double smooth_rms_mm = 0.0, smooth_largest_mm = 0.0;  ///< of the smooth error
   bool limited = false;                                 ///< the smooth error is beyond the limit somewhere
-  BSplineSurface field;                                 ///< the smooth error as x over [0, 1]^2, mm
+  ErrorField field;                                     ///< the smooth error
   double limit_mm = 0.0;
-  /// The smooth error, mm, within the limit.
-  [[nodiscard]] double at(double u, double v) const;
+  /// The smooth error of a pass, mm, within the limit.
+  [[nodiscard]] double of_pass(std::size_t pass, double u, double v) const;
+  /// That of the cut, where the passes of the plan leave this; nothing: of one pass.
+  [[nodiscard]] double at(double u, double v, const std::vector<double>& planned_mm = {}) const;
 };
 
 /// `face`: of the target, one patch. Throws InputError where the points are too few, belong to another face or another datum, or
@@ -56,7 +53,8 @@ struct FaceError {
                                    const FaceErrorOptions& options);
 
 /// The face, moved against its error: what has to be aimed at so that the nominal face is cut. `side`: +1 where the machined side is
-/// that of Su x Sv, else -1.
-[[nodiscard]] Face mirrored_face(const Face& face, const FaceError& error, int side);
+/// that of Su x Sv, else -1. `planned_mm`: what the error was measured with.
+[[nodiscard]] Face mirrored_face(const Face& face, const FaceError& error, int side,
+                                 const PlannedLeft& planned_mm = {});
 
 }  // namespace flank::internal

@@ -9,7 +9,6 @@
 namespace flank::internal {
 namespace {
 
-constexpr double kOverrun = 0.03;  ///< of the way, at both ends
 constexpr int kPosesPerControl = 8;
 constexpr std::array<int, 4> kCounts = {24, 36, 60, 96};
 
@@ -22,7 +21,7 @@ Ends ends_of(const Pose& pose, double length) {
   return ends;
 }
 
-/// A strip by its way: cubic from pose to pose, straight beyond both ends.
+/// A strip by its way: cubic from pose to pose.
 class Way {
  public:
   Way(const Strip& strip, double length) : length_(length) {
@@ -40,12 +39,12 @@ class Way {
 
   /// share 0: the first pose, 1: the last.
   [[nodiscard]] Pose at(double share) const {
-    const double w = share * way_.back(), inside = std::clamp(w, 0.0, way_.back());
-    const auto after = std::upper_bound(way_.begin() + 1, way_.end() - 1, inside);
+    const double w = share * way_.back();
+    const auto after = std::upper_bound(way_.begin() + 1, way_.end() - 1, w);
     const auto k = static_cast<std::size_t>(after - way_.begin()) - 1;
-    const double h = way_[k + 1] - way_[k], x = (inside - way_[k]) / h, y = 1.0 - x;
+    const double h = way_[k + 1] - way_[k], x = (w - way_[k]) / h, y = 1.0 - x;
     const Ends ends = y * y * (1.0 + 2.0 * x) * ends_[k] + x * x * (1.0 + 2.0 * y) * ends_[k + 1] +
-                      h * x * y * (y * slopes_[k] - x * slopes_[k + 1]) + (w - inside) * slopes_[w < 0.0 ? 0 : k + 1];
+                      h * x * y * (y * slopes_[k] - x * slopes_[k + 1]);
     const Vec3 tip = ends.head<3>(), top = ends.tail<3>();
     return {tip, (top - tip).normalized()};
   }
@@ -74,7 +73,7 @@ RuledMotion through(const Way& way, int count) {
   const int last = kPosesPerControl * count;
   for (int k = 0; k <= last; ++k) {
     times.push_back(static_cast<double>(k) / last);
-    poses.push_back(way.at((1.0 + 2.0 * kOverrun) * times.back() - kOverrun));
+    poses.push_back(way.at(times.back()));
   }
   return fit_motion(poses, times, way.length(), count);
 }
@@ -85,7 +84,7 @@ double off(const Way& way, const RuledMotion& motion) {
   double largest = 0.0;
   for (int k = 0; k <= kPlaces; ++k) {
     const double share = static_cast<double>(k) / kPlaces;
-    const Pose wanted = way.at(share), is = motion.pose((share + kOverrun) / (1.0 + 2.0 * kOverrun));
+    const Pose wanted = way.at(share), is = motion.pose(share);
     largest = std::max({largest, (wanted.tip - is.tip).norm(), (wanted.at(way.length()) - is.at(way.length())).norm()});
   }
   return largest;
