@@ -179,6 +179,13 @@ TEST(CavitySearch, StartsSlimWhereAThickStartCoversLittle) {
   EXPECT_LT(sides.fit.after.overcut_mm, 0.1 * options.fit.tolerance_mm);
 }
 
+TEST(CavitySearch, StartsAsAConeWhereACylinderLeavesWhatATipReaches) {
+  const std::vector<RadiusStart> starts = starts_under(5.0, 0.5, 1.8);
+  EXPECT_NEAR(starts.front().tip_share * starts.front().radius_mm, 1.8, 1e-12);
+  EXPECT_LT(starts.front().least_share * starts.front().radius_mm, 1.8) << "its tip may become thinner";
+  for (const RadiusStart& start : starts_under(5.0, 0.5)) EXPECT_EQ(start.tip_share, 1.0);
+}
+
 TEST(CavitySearch, TriesNoLayersThatAreTooFew) {
   CoverageEstimate found;
   found.at_tolerance = 0.75, found.at_four_tolerances = 0.97;

@@ -157,6 +157,17 @@ void require_room(const TrochoidJob& job, const ToolSpec& spec, const CavityFace
                                  thinnest, width, faces.width.narrowest_mm));
 }
 
+/// Where a blade stands between the sides, fronts would have to go through it.
+void require_way_across(const TrochoidJob& job, const CavityFaces& faces) {
+  constexpr double kMost = 0.5;
+  const double blocked = blocked_share(side_of(faces.sides[0]), side_of(faces.sides[1]));
+  if (blocked <= kMost) return;
+  throw InputError(
+      "right", fmt::format("another face stands between {} and {} at {:.0f} % of their places: no cutting move gets "
+                           "across; give the two sides of the channel on either side of it",
+                           job.left, job.right, 100.0 * blocked));
+}
+
 /// From the floor to the middle of the sides.
 std::optional<Vec3> up_from_floor(const TrochoidJob& job, const Setup& setup, const CavityFaces& faces) {
   if (!job.floor) return {};
@@ -243,6 +254,7 @@ Result plan_trochoid(const TrochoidJob& request, KnownShank known, double most_l
   const ClearanceScene scene = make_clearance_scene(setup, job.obstacles, has_body(spec, job.obstacles), result.notes);
   if (job.avoid) surround(job, shank_in_the_way, setup, faces);
   require_room(job, spec, faces);
+  require_way_across(job, faces);
   if (spec.free) faces.ball_mm = reach_in_gap(setup, kMostOfWidth * faces.width.narrowest_mm);
   SideFitOptions options = side_options(job, faces);
   options.fit.bounds.shank_in_the_way = shank_in_the_way;

@@ -179,6 +179,29 @@ TEST_F(RunOutTest, TurnsAsideWhereABentChannelGoesOn) {
   EXPECT_LE(deepest_of_both(), kWall * kRadius);
 }
 
+TEST_F(RunOutTest, StepsInwardsWhereASideGoesOnPastTheEndOfItsPath) {
+  // The side bulges right behind the end of its path, in its upper half: neither a hub to rise from nor a wall to turn along.
+  const Face bulge = testing::quad(Vec3(45.5, 0, 15), Vec3(50, 0.3, 15), Vec3(45.5, 0, 60), Vec3(50, 0.3, 60), "F3");
+  const ObstacleField field(only({make_target({bulge}), false}), *blade_, 2.0, 0.0);
+  const HalfGuard guard({{blade_.get()}, {&field}}, kTool);
+  SidePath a = leaning(kRadius, 0.0), b = leaning(19.0, 0.0);
+  const auto deepest_of_first = [&] {
+    GuardDepth depth;
+    for (double by = 0.0; by <= 6.0 * kRadius; by += 0.25) {
+      const AxisPlace place = a.at(a.length() + by);
+      guard.look({place.tip, place.u}, 9, depth);
+    }
+    return depth.deepest();
+  };
+  join_run_outs(a, b, kRadius);
+  EXPECT_GT(deepest_of_first(), 0.2);
+  EXPECT_EQ(join_run_outs(a, b, kRadius, guard, 0.01).end, 0.0);
+  EXPECT_LE(deepest_of_first(), 0.02);
+  const AxisPlace p = a.at(a.length() + 12.0), q = b.at(b.length() + 12.0);
+  EXPECT_LT((p.tip_dx - q.tip_dx).norm(), 1e-9) << "side by side again";
+  EXPECT_GT((p.tip - q.tip).norm(), 16.0 - 2.0 * kRadius * 0.45) << "and hardly nearer to each other";
+}
+
 TEST_F(RunOutTest, GoesAsFarAsAWallThatIsFartherOn) {
   const Face wall = testing::quad(Vec3(56, -50, -20), Vec3(56, 50, -20), Vec3(56, -50, 60), Vec3(56, 50, 60), "F3");
   const ObstacleField field(only({make_target({wall}), true}), *blade_, 2.0, 0.0);

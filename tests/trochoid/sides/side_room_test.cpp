@@ -38,6 +38,18 @@ TEST(ReachOfTool, IsThatOfTheRadiusAtThePlace) {
   EXPECT_EQ(reach_of_tool(side, side, {}, cylinder), 0.0);
 }
 
+TEST(BlockedShare, IsWhereABladeStandsBetween) {
+  const std::unique_ptr<Target> blade = testing::standing_blade(0.0);
+  const std::unique_ptr<Target> other =
+      make_target({testing::quad(Vec3(0, 16, 0), Vec3(60, 16, 0), Vec3(0, 16, 40), Vec3(60, 16, 40), "F2")});
+  const Face splitter = testing::quad(Vec3(20, 7, -5), Vec3(60, 9, -5), Vec3(20, 7, 45), Vec3(60, 9, 45), "F3");
+  const ObstacleField field(testing::only({make_target({splitter}), false}), *blade, 4.0, 0.0);
+  const ObstacleField floor(testing::only(testing::hub(true)), *blade, 4.0, 0.0);
+  EXPECT_NEAR(blocked_share({blade.get(), &field}, {other.get(), nullptr}), 40.0 / 60.0, 0.05);
+  EXPECT_LT(blocked_share({blade.get(), &floor}, {other.get(), nullptr}), 0.1) << "a floor is no blade";
+  EXPECT_EQ(blocked_share({blade.get(), nullptr}, {other.get(), nullptr}), 0.0);
+}
+
 TEST(CoveredInReach, CountsWhereTheBallFits) {
   const std::unique_ptr<Target> blade = testing::standing_blade(0.0);
   const Face wall = testing::quad(Vec3(60, 50, -10), Vec3(60, -50, -10), Vec3(60, 50, 60), Vec3(60, -50, 60), "F3");

@@ -46,6 +46,30 @@ TEST(SideStart, BeginsAndEndsBeforeWallsAcrossTheWay) {
     }
 }
 
+TEST(SideStart, AConeTouchesBothSidesFromItsThinTipUp) {
+  // Walls that come together towards the floor: there a cylinder of 6 mm has hardly any room.
+  constexpr double kRadius = 6.0, kTip = 2.0;
+  const std::vector<Face> faces = cavity_walls({.twist_deg = 0.0, .lean_deg = 12.0});
+  const std::unique_ptr<Target> left = make_target({faces[0]}), right = make_target({faces[1]});
+  const auto same = [](double length) { return length; };
+  int upright = 0;
+  for (const bool swapped : {false, true}) {
+    const std::vector<FitTask> tasks =
+        side_tasks({left.get(), nullptr}, {right.get(), nullptr}, Chart(*left), Chart(*right),
+                   {swapped, 0.0, kRadius, kTip}, 1, same, Vec3(0.0, 0.0, 1.0));
+    ASSERT_EQ(tasks.size(), 2u);
+    if (tasks.front().motion.pose(0.5).axis.z() < 0.8) continue;
+    ++upright;
+    for (const FitTask& task : tasks)
+      for (const double share : {0.1, 0.5, 0.9}) {
+        // The walls are hollow by a millimetre.
+        const Vec3 place = task.motion.pose(0.5).at(share * task.motion.axis_length);
+        EXPECT_NEAR(task.target->closest(place).distance, std::lerp(kTip, kRadius, share), 1.0) << swapped << share;
+      }
+  }
+  EXPECT_EQ(upright, 1);
+}
+
 TEST(SideStart, DoesNotGoUpAWallThatItsLinesLeanAgainst) {
   constexpr double kRadius = 2.7;
   const std::vector<Face> faces = cavity_walls(

@@ -51,12 +51,27 @@ struct Bound {
   int fewest_layers = 1;
 };
 
+/// The tip of a cone, where a cylinder that is all but as thick as the bound leaves more than may be left of what the ball reaches that
+/// is asked for: in fillets, or where the sides come together.
+std::optional<double> tip_under(const Search& search, double bound) {
+  const auto& [job, faces] = search.demand;
+  const double radius = kBegin * bound, ball = job.judge.reach_radius_mm.value_or(faces.ball_mm);
+  const double tip = std::max(kBegin * ball, job.radius.min_mm.value_or(0.0));
+  if (tip >= radius) return {};
+  const double reached = reachable_share(search.left, search.right, radius),
+               asked = reachable_share(search.left, search.right, ball);
+  if (reached >= job.judge.least_coverage * asked) return {};
+  return tip;
+}
+
 SideFitOptions options_under(const Search& search, double bound) {
   const TrochoidJob& job = search.demand.job;
   SideFitOptions here = search.options;
   here.fit.bounds.largest = bound;
-  if (!job.radius.min_mm) here.fit.bounds.smallest = std::min(here.fit.bounds.smallest, 0.5 * bound);
-  here.starts = starts_under(bound, here.fit.bounds.smallest);
+  const std::optional<double> tip = search.tool.free() ? tip_under(search, bound) : std::nullopt;
+  if (!job.radius.min_mm)
+    here.fit.bounds.smallest = std::min(here.fit.bounds.smallest, tip ? kEven * *tip : 0.5 * bound);
+  here.starts = starts_under(bound, here.fit.bounds.smallest, tip);
   if (search.tool.free()) return here;
   here.starts.resize(1);
   if (search.tool.radius) here.starts.front().radius_mm = *search.tool.radius;
@@ -65,6 +80,13 @@ SideFitOptions options_under(const Search& search, double bound) {
 
 double reach_of(const SideFit& sides, const CavityFaces& faces) {
   return reach_of_tool(side_of(faces.sides[0]), side_of(faces.sides[1]), sides.fit.motions, sides.fit.tool);
+}
+
+/// Whether sides cover the share that is asked for of what the ball reaches that says what of them counts.
+bool covers_asked(const SideFit& sides, const CavityDemand& demand) {
+  const auto& [job, faces] = demand;
+  return covers_reachable(side_of(faces.sides[0]), side_of(faces.sides[1]), sides.fit.after.at_tolerance,
+                          job.judge.least_coverage, asked_ball(job, faces, sides.fit.tool));
 }
 
 double deepest_of(const SideFit& sides) { return std::max(sides.fit.after.overcut_mm, sides.fit.after.gouge_mm); }
@@ -101,6 +123,14 @@ bool gains(const SideFit& sides, const SideFit& other, const CavityDemand& deman
          rank(plan_without_cycles(sides, 0.0), demand) > rank(plan_without_cycles(other, 0.0), demand);
 }
 
+/// Whether sides do what can be asked of them. Where a start is a cone, its tip reaches what a thicker one leaves: that is asked for, too.
+bool do_enough(const SideFit& sides, const SideFitOptions& options, const CavityDemand& demand) {
+  if (!fills_reach(sides, demand)) return false;
+  const bool cone = std::any_of(options.starts.begin(), options.starts.end(),
+                                [](const RadiusStart& start) { return start.tip_share < 1.0; });
+  return !cone || covers_asked(sides, demand);
+}
+
 /// As many layers as the tolerance needs, not those that cannot help; or as many as are asked for. `before`: sides that are there
 /// already; more layers than the fewest only for what gains on them.
 SideFit search_sides(const Search& search, SideFitOptions options, const Bound& bound, const SideFit& before) {
@@ -118,7 +148,7 @@ SideFit search_sides(const Search& search, SideFitOptions options, const Bound& 
     const double asked = some ? demand.job.judge.least_coverage * reach_of(tried, demand.faces) : 1.0;
     const bool far = is_wide(bound.mm, demand) && some && tried.fit.after.at_four_tolerances < asked;
     // More layers make no way across.
-    const bool ends = far || fills_reach(tried, demand) || (bound.thinner && is_narrow(tried));
+    const bool ends = far || do_enough(tried, options, demand) || (bound.thinner && is_narrow(tried));
     const int next = some ? layers_after(options.layers, tried.fit.after, asked) : options.layers + 1;
     if (better || best.fit.motions.empty()) best = std::move(tried);
     if (ends || !better || options.layers == last || search.progress.stop()) return best;
@@ -216,9 +246,11 @@ std::vector<CavityPlan> plans_under(const Search& search, Bound bound) {
 
 }  // namespace
 
-std::vector<RadiusStart> starts_under(double bound_mm, double least_mm) {
+std::vector<RadiusStart> starts_under(double bound_mm, double least_mm, const std::optional<double>& tip_mm) {
   const double radius = std::max(kBegin * bound_mm, least_mm);
-  std::vector<RadiusStart> starts = {{radius, kStout}, {radius, kThin}};
+  std::vector<RadiusStart> starts;
+  if (tip_mm) starts.push_back({radius, kEven * *tip_mm / radius, 2.0, *tip_mm / radius});
+  starts.insert(starts.end(), {{radius, kStout}, {radius, kThin}});
   if (kSlim * bound_mm > least_mm) starts.push_back({kSlim * bound_mm, kThin, kCoversLittle});
   return starts;
 }
@@ -235,10 +267,8 @@ int layers_after(int layers, const CoverageEstimate& found, double asked) {
 bool fills_reach(const SideFit& sides, const CavityDemand& demand) {
   const auto& [job, faces] = demand;
   if (sides.fit.motions.empty() || deepest_of(sides) > *job.tolerance_mm) return false;
-  const double covered = sides.fit.after.at_tolerance, least = job.judge.least_coverage;
-  return covers_reachable(side_of(faces.sides[0]), side_of(faces.sides[1]), covered, least,
-                          asked_ball(job, faces, sides.fit.tool)) ||
-         covered >= least * reach_of(sides, faces);
+  return covers_asked(sides, demand) ||
+         sides.fit.after.at_tolerance >= job.judge.least_coverage * reach_of(sides, faces);
 }
 
 bool is_hopeless(const SideFit& sides, const CavityDemand& demand) {

@@ -38,8 +38,10 @@ using CavityJudge = std::function<std::optional<CavityFinding>(const CavityPlan&
 [[nodiscard]] std::vector<double> bounds_of(const TrochoidJob& job, const CavityWidth& width);
 
 /// What a free tool begins with under a bound of its radius: all but as thick as that. A cylinder that is thicker than most of the tool
-/// will be stays against the bound between walls that bulge, whose tool has a waist: where little is covered so, a thinner one begins.
-[[nodiscard]] std::vector<RadiusStart> starts_under(double bound_mm, double least_mm);
+/// will be stays against the bound between walls that bulge, whose tool has a waist: where little is covered so, a thinner one begins. `tip_mm`: of a
+/// cone to begin with, where a cylinder leaves too much of what is to be reached.
+[[nodiscard]] std::vector<RadiusStart> starts_under(double bound_mm, double least_mm,
+                                                    const std::optional<double>& tip_mm = {});
 
 /// How many layers are tried after so many, which cover less than is asked for. Of a band what a straight line leaves goes with the
 /// square of its height: with twice as many layers what is now within four tolerances may be finished, and other shares lie between

@@ -387,9 +387,9 @@ void RowMeter::cut_by_poses(const ToolRing& ring, const Front& front) {
 }
 
 EngagementRow RowMeter::row(const RuledMotion& motion, double t, std::span<const ToolRing> rings, double least_rad) {
-  // What is known of other rows decides how many poses are asked, and after a stop less is known: that is no measure. Two of these take
+  // What is known of other rows decides how many poses are asked, and after a stop less is known: that is no measure. Six of these take
   // about as long as a look.
-  count_work((near_.count() + rings.size()) / 2);
+  count_work((near_.count() + rings.size()) / 6);
   const RowFrame frame = frame_of(motion, t);
   find_arcs(frame, t, rings, least_rad);
   return sum_of(frame.axis, t, rings, found_);

@@ -54,14 +54,24 @@ struct Bend {
   double over_mm = 1.0, rise_over_mm = 1.0, rise_until_mm = kForever;
   std::optional<Vec3> axis = {};
   double turn_over_mm = 1.0;
+  Vec3 inwards = Vec3::Zero();  ///< of the first path, as it rises; the second one goes the other way
 };
 
 void lay(SidePath& a, SidePath& b, bool end, const Bend& bend) {
   for (SidePath* path : {&a, &b}) {
+    const Vec3 inwards = path == &a ? bend.inwards : Vec3(-bend.inwards);
     path->bend_run_out(end, bend.direction, bend.over_mm);
-    path->raise_run_out(end, bend.rise, bend.rise_over_mm, bend.rise_until_mm);
+    path->raise_run_out(end, bend.rise + inwards, bend.rise_over_mm, bend.rise_until_mm);
     path->turn_run_out(end, bend.axis, bend.turn_over_mm);
   }
+}
+
+/// From the first path to the second one at an end, across the way and the axis.
+Vec3 across_of(const SidePath& a, const SidePath& b, bool end, const Vec3& direction, const Vec3& up) {
+  const double middle = 0.5 * a.axis_length();
+  const Vec3 gap = b.at(end ? b.length() : 0.0).at(middle) - a.at(end ? a.length() : 0.0).at(middle);
+  const Vec3 across = direction.cross(up).normalized();
+  return across.dot(gap) < 0.0 ? Vec3(-across) : across;
 }
 
 /// How steeply a run-out rises, and for how many radii.
@@ -172,6 +182,7 @@ class RunOutChoice {
     const std::optional<Vec3> axis = common_axis(a_, b_, end_);
     if (axis) for_each(common_, axis, [&](const Bend& bend) { keep_shallowest(bend); });
     for_each(common_, {}, [&](const Bend& bend) { keep_shallowest(bend); });
+    if (least_ > 0.0) step_inwards(axis);
     if (least_ > kWall * radius_) turn_aside(axis);
     lay(a_, b_, end_, best_);
     return std::max(0.0, least_);
@@ -209,6 +220,19 @@ class RunOutChoice {
     if (!(forward > kFarther * farthest_)) return;
     free_ = free, farthest_ = forward;
     best_ = bend;
+  }
+  /// Where a side goes on past the end of its path, at some height, what goes straight on from there enters it: both step off their
+  /// sides, towards each other, by as little as it takes, and go on side by side.
+  void step_inwards(const std::optional<Vec3>& axis) {
+    constexpr double kTurnOver = 4.0;  // radii, as the ways below
+    const Vec3 across = across_of(a_, b_, end_, common_, up_);
+    for (const double until : {0.5, 1.0})
+      for (const double slope : {0.06, 0.12, 0.25, 0.45})
+        for (const double rise : {0.0, 0.12, 0.25})
+          for (const double rise_over : {1.0, 0.4, 0.1})
+            for (const double over : {1.0, 2.0, 4.0})
+              keep_shallowest({common_, rise * up_, over * radius_, rise_over * radius_, until * radius_, axis,
+                               kTurnOver * radius_, slope * across});
   }
   /// Straight on there is a wall: curved sides are gone on along as they bend, or as far as there is room.
   void turn_aside(const std::optional<Vec3>& axis) {

@@ -172,7 +172,9 @@ Candidate SideFitter::quick(const SideStart& start, const FlankFitOptions& asked
   if (tasks.empty()) return candidate;
   const FlankFitOptions fit = possible(asked, tasks.front().motion.axis_length);
   if (!options_.slender && fit.bounds.slenderest != asked.bounds.slenderest) return candidate;
-  FitDraft draft = start_draft(tasks, tool_, start.radius_mm);
+  const double tip = std::min(start.radius_mm, start.tip_mm);
+  const double half_angle = std::atan2(start.radius_mm - tip, tasks.front().motion.axis_length);
+  FitDraft draft = start_draft(tasks, tool_, tip, std::sin(half_angle));
   draft.facing = options_.facing;
   FitStage stage = quick_stage(robust_scale(*left_.target, fit));
   if (draft.facing) set_motion_weights(stage, kQuickParallel * fit.tolerance_mm, left_.target->diagonal());
@@ -190,7 +192,7 @@ RadiusFit SideFitter::fit_radius(const RadiusStart& first) const {
   if (tool_.free()) fit.bounds.smallest = std::max(fit.bounds.smallest, first.least_share * radius);
   std::vector<SideStart> all;
   for (const bool swapped : {false, true})
-    for (const double skew : kSkews) all.push_back({swapped, skew * kDegree, radius});
+    for (const double skew : kSkews) all.push_back({swapped, skew * kDegree, radius, first.tip_share * radius});
   std::vector<Candidate> candidates(all.size());
   parallel_for(all.size(), [&](std::size_t k) { candidates[k] = quick(all[k], fit); });
   RadiusFit out;
@@ -252,7 +254,7 @@ SideFit search_radii(const CavitySide& left, const CavitySide& right, const Tool
   double free_radius = 0.0;  // start with which no radius came near to its least one
   for (const RadiusStart& start : options.starts) {
     // With a lower one it would come to the same.
-    if (start.radius_mm == free_radius) continue;
+    if (start.radius_mm == free_radius && start.tip_share == 1.0) continue;
     if (!best.draft.motions.empty() &&
         covers_reachable(left, right, best.estimate.at_tolerance, start.unless_covered, best.draft.tool.smallest()))
       continue;
@@ -267,7 +269,7 @@ SideFit search_radii(const CavitySide& left, const CavitySide& right, const Tool
     const bool better = best.draft.motions.empty() || worth(tried.polished.draft, tried.polished.estimate, tolerance) >
                                                           worth(best.draft, best.estimate, tolerance);
     const bool done = fitter.is_done(tried.polished);
-    if (tried.polished.draft.tool.smallest() > kFree * start.least_share * start.radius_mm)
+    if (start.tip_share == 1.0 && tried.polished.draft.tool.smallest() > kFree * start.least_share * start.radius_mm)
       free_radius = start.radius_mm;
     if (better) {
       best = std::move(tried.polished);
@@ -293,7 +295,8 @@ SideFit search_radii(const CavitySide& left, const CavitySide& right, const Tool
 }  // namespace
 
 void code(StepCodec& codec, RadiusStart& start) {
-  for (double* value : {&start.radius_mm, &start.least_share, &start.unless_covered}) codec.number(*value);
+  for (double* value : {&start.radius_mm, &start.least_share, &start.unless_covered, &start.tip_share})
+    codec.number(*value);
 }
 
 void code(StepCodec& codec, SideFit& sides) {

@@ -14,6 +14,7 @@ struct RadiusStart {
   double radius_mm = 1.0, least_share = 0.3;
   /// Not tried where another start covers as much of what its tool reaches of both sides; above 1: always tried.
   double unless_covered = 2.0;
+  double tip_share = 1.0;  ///< radius of the tip, as a share of it: below 1 the tool is a cone to begin with
 };
 
 struct SideFitOptions {

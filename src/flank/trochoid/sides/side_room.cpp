@@ -70,6 +70,25 @@ double way_across(const RuledMotion& left, const RuledMotion& right, double s) {
 
 }  // namespace
 
+double blocked_share(const CavitySide& left, const CavitySide& right) {
+  constexpr double kNear = 0.1, kFirst = 0.3,
+                   kLast = 0.7;  // of the way across; nearer to its ends are the sides' own neighbours
+  if (left.obstacles == nullptr) return 0.0;
+  int blocked = 0, all = 0;
+  for (const SurfaceSample& sample : left.target->samples(std::sqrt(left.target->area()) / 30.0)) {
+    const Vec3 across = right.target->closest(sample.point).point - sample.point;
+    const double near = kNear * across.norm();
+    if (!left.obstacles->reachable(sample, near, left.obstacles->allowance_mm())) continue;
+    ++all;
+    for (double share = kFirst; share < kLast + 0.5 * kNear; share += kNear) {
+      if (left.obstacles->at(sample.point + share * across, near).face < 0) continue;
+      ++blocked;
+      break;
+    }
+  }
+  return all > 0 ? static_cast<double>(blocked) / all : 0.0;
+}
+
 double reach_of_tool(const CavitySide& left, const CavitySide& right, const std::vector<RuledMotion>& motions,
                      const RadialFunction& tool) {
   if (motions.size() < 2) return 0.0;

@@ -9,6 +9,10 @@
 
 namespace flank::internal {
 
+/// Of samples of the left side, the share from which something else stands in the straight way to the right one, as a splitter does: no
+/// front gets across there.
+[[nodiscard]] double blocked_share(const CavitySide& left, const CavitySide& right);
+
 /// Of samples of both sides, the share at which a ball fits between the other faces that has the radius of the tool at the
 /// height at which it comes nearest there. A ball of the tool's least radius fits at more places: beside a wall a tool that is
 /// thicker elsewhere ends before it. `motions`: of the left and the right side, in turn.

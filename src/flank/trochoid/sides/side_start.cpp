@@ -195,6 +195,41 @@ Vec3 towards_wider(const RuledMotion& left, const RuledMotion& right) {
 
 }  // namespace
 
+/// Both sides, laid.
+struct LaidSides {
+  Laid left, right;
+  double length = 0.0;
+  Vec3 above = Vec3::Zero(), along = Vec3::Zero();
+};
+
+/// Not turned yet. No motions: no line is free.
+LaidSides lay_sides(const CavitySide& left, const CavitySide& right, const Chart& left_chart, const Chart& right_chart,
+                    const RuledStart& on_left, const RuledStart& on_right, int layers,
+                    const std::function<double(double)>& axis_length, const std::optional<Vec3>& up) {
+  LaidSides out;
+  out.length = axis_length(
+      std::max(longest_line(left, left_chart, on_left, layers), longest_line(right, right_chart, on_right, layers)));
+  out.left = lay(left, left_chart, on_left, layers, out.length);
+  out.right = lay(right, right_chart, on_right, layers, out.length);
+  if (out.left.motions.empty() || out.right.motions.empty()) return {};
+  const RuledMotion &a = out.left.motions.front(), &b = out.right.motions.front();
+  out.above = up.value_or(towards_wider(a, b));
+  if (out.left.walled)
+    out.above = a.pose(0.5).axis;
+  else if (out.right.walled)
+    out.above = b.pose(0.5).axis;
+  out.along = travel(a);
+  return out;
+}
+
+/// The start as a cone of this tip, which is at the lower end of its lines.
+RuledStart widening(const Chart& chart, RuledStart start, double tip_mm, double length, const Vec3& above) {
+  start.lean_rad = std::atan((start.radius_mm - tip_mm) / length);
+  start.radius_mm = tip_mm;
+  start.tip_high = axis_line(chart, start, 0.5).direction.dot(above) < 0.0;
+  return start;
+}
+
 std::vector<FitTask> side_tasks(const CavitySide& left, const CavitySide& right, const Chart& left_chart,
                                 const Chart& right_chart, const SideStart& start, int layers,
                                 const std::function<double(double)>& axis_length, const std::optional<Vec3>& up) {
@@ -203,18 +238,21 @@ std::vector<FitTask> side_tasks(const CavitySide& left, const CavitySide& right,
   on_left.skew_rad = start.skew_rad;
   on_left.radius_mm = start.radius_mm;
   const RuledStart on_right = like(right_chart, start, left_chart, on_left);
-  const double length = axis_length(
-      std::max(longest_line(left, left_chart, on_left, layers), longest_line(right, right_chart, on_right, layers)));
-  Laid a = lay(left, left_chart, on_left, layers, length), b = lay(right, right_chart, on_right, layers, length);
-  if (a.motions.empty() || b.motions.empty()) return {};
-  Vec3 above = up.value_or(towards_wider(a.motions.front(), b.motions.front()));
-  if (a.walled)
-    above = a.motions.front().pose(0.5).axis;
-  else if (b.walled)
-    above = b.motions.front().pose(0.5).axis;
-  const Vec3 along = travel(a.motions.front());
-  turn(a, above, along);
-  turn(b, above, along);
+  const auto laid_as = [&](const RuledStart& a, const RuledStart& b) {
+    return lay_sides(left, right, left_chart, right_chart, a, b, layers, axis_length, up);
+  };
+  LaidSides laid = laid_as(on_left, on_right);
+  // Where the tips are a cylinder shows.
+  if (start.tip_mm < start.radius_mm && !laid.left.motions.empty()) {
+    const Vec3 above = laid.above;
+    laid = laid_as(widening(left_chart, on_left, start.tip_mm, laid.length, above),
+                   widening(right_chart, on_right, start.tip_mm, laid.length, above));
+    laid.above = above;
+  }
+  auto &a = laid.left, &b = laid.right;
+  if (a.motions.empty()) return {};
+  turn(a, laid.above, laid.along);
+  turn(b, laid.above, laid.along);
   std::vector<FitTask> tasks;
   for (std::size_t k = 0; k < a.motions.size(); ++k) {
     tasks.push_back({left.target, a.motions[k], left.obstacles});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct SideStart {
   bool swapped = false;
   double skew_rad = 0.0;
   double radius_mm = 1.0;
+  /// Radius of the tip: below the other one the tool is a cone that widens to that.
+  double tip_mm = std::numeric_limits<double>::infinity();
 };
 
 /// Starts of all layers, two motions each (left, right), the top layer first. The right side's lines are those of its
