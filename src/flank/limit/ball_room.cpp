@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "flank/base/parallel.h"
+#include "flank/geom/face_box.h"
 #include "flank/geom/tessellate.h"
 
 namespace flank::internal {
@@ -14,22 +15,12 @@ constexpr double kChordShare = 0.05;   ///< of the radius: of the triangles from
 constexpr double kReach = 3.0;         ///< radii in which a solid matters, and its triangles must be near its faces
 constexpr double kCoarseShare = 1e-3;  ///< of the part: of triangles that are farther
 
-bool is_near(const Box3& a, const Box3& b, double mm) {
-  return (a.low.array() <= b.high.array() + mm).all() && (b.low.array() <= a.high.array() + mm).all();
-}
-
-Box3 poles_of(const Face& face) {
-  Box3 box;
-  for (const Vec3& pole : face.surface.poles) box.add(pole);
-  return box;
-}
-
 /// Finely where balls may come, else as closed as that needs.
 TriangleMesh joined(const Part& part, const std::vector<int>& faces, const Box3& near, double radius_mm) {
   std::vector<TriangleMesh> meshes(faces.size());
   parallel_for(meshes.size(), [&](std::size_t k) {
     const Face& face = part.faces[static_cast<std::size_t>(faces[k])];
-    const bool fine = is_near(poles_of(face), near, kReach * radius_mm);
+    const bool fine = internal::near(box_of(face), near, kReach * radius_mm);
     const double chord = kChordShare * radius_mm;
     meshes[k] = tessellate(face, {.chord_mm = fine ? chord : std::max(chord, kCoarseShare * part.box.diagonal())}).mesh;
   });
@@ -64,11 +55,11 @@ BallRoom::BallRoom(const Setup& setup, std::vector<const Target*> faces, const s
   for (const auto& [solid, of_solid] : whole_solids(setup)) {
     Box3 box;
     for (const int face : of_solid) {
-      const Box3 poles = poles_of(setup.part.faces[static_cast<std::size_t>(face)]);
+      const Box3 poles = box_of(setup.part.faces[static_cast<std::size_t>(face)]);
       box.add(poles.low);
       box.add(poles.high);
     }
-    if (!is_near(box, near, kReach * radius_mm)) continue;
+    if (!internal::near(box, near, kReach * radius_mm)) continue;
     solids_.emplace_back(joined(setup.part, of_solid, near, radius_mm));
     scene_.of_solid = scene_.of_solid || std::find(of_solid.begin(), of_solid.end(), own.front()) != of_solid.end();
   }
