@@ -1,6 +1,7 @@
 #include "flank/geom/face_box.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "flank/geom/face_cut.h"
 #include "flank/geom/trim.h"
@@ -8,9 +9,11 @@
 namespace flank::internal {
 namespace {
 
-/// A side of the patch, in one direction; nothing to cut where the trims fill the surface.
-BSplineSurface cut_to(const BSplineSurface& surface, bool along_u, double first, double last, double low, double high) {
-  const double spare = 2.0 * kTrimDeviation * (last - first);
+/// Between two parameters of a direction; the whole where they reach past both ends.
+BSplineSurface cut_to(const BSplineSurface& surface, bool along_u, double low, double high) {
+  const double first = along_u ? surface.u_first() : surface.v_first();
+  const double last = along_u ? surface.u_last() : surface.v_last();
+  const double spare = kTrimDeviation * (last - first);
   low = std::max(first, low - spare);
   high = std::min(last, high + spare);
   if (!(high > low) || (low <= first && high >= last)) return surface;
@@ -20,13 +23,16 @@ BSplineSurface cut_to(const BSplineSurface& surface, bool along_u, double first,
 }  // namespace
 
 Box3 box_of(const Face& face) {
-  const BSplineSurface& whole = face.surface;
-  const TrimRegion trims(face.loops, {whole.u_first(), whole.u_last(), whole.v_first(), whole.v_last()});
-  const ParameterRectangle& r = trims.box();
-  BSplineSurface patch = whole;
-  if (!trims.whole()) {
-    patch = cut_to(whole, true, whole.u_first(), whole.u_last(), r.u0, r.u1);
-    patch = cut_to(patch, false, whole.v_first(), whole.v_last(), r.v0, r.v1);
+  BSplineSurface patch = face.surface;
+  if (!face.loops.empty()) {
+    // A curve lies in the hull of its control points, and so do the straight lines that join the ends of curves.
+    Vec2 low = Vec2::Constant(std::numeric_limits<double>::max()), high = -low;
+    for (const TrimLoop& loop : face.loops)
+      for (const BSplineCurve2& edge : loop.edges) {
+        low = low.cwiseMin(edge.poles.rowwise().minCoeff());
+        high = high.cwiseMax(edge.poles.rowwise().maxCoeff());
+      }
+    patch = cut_to(cut_to(patch, true, low.x(), high.x()), false, low.y(), high.y());
   }
   Box3 box;
   for (const Vec3& pole : patch.poles) box.add(pole);

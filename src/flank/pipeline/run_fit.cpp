@@ -293,7 +293,7 @@ ReadPart read_part_of(const FitJob& job, const ToolSpec& spec) {
   read.setup = read_setup(job.part, job.obstacles, job.tolerance_mm, read.notes);
   check_axis_length(job, read.setup.part);
   read.scene = make_clearance_scene(read.setup, job.obstacles, has_body(spec, job.obstacles), read.notes);
-  read.is_free_line = free_line_in(read.scene.obstacles);
+  read.is_free_line = free_line_in(read.scene.sight);
   return read;
 }
 

@@ -91,7 +91,9 @@ ClearanceScene make_clearance_scene(const Setup& setup, const ObstacleRequest& r
       std::clamp(kToleranceBudget.shank.judge_triangles * setup.tolerance_mm, kFinestMm, kCoarsestMm);
   // Whether something is in the way of a tool that is not known yet need not be told to a hundredth of a millimetre.
   const double coarse = std::max(kCoarsestMm, kSizeShare * setup.part.box.diagonal());
-  std::vector<DistantObstacle> obstacles;
+  std::vector<DistantObstacle> obstacles, sight;
+  add_part(setup, coarse, true, sight);
+  scene.sight = ObstacleSet(std::move(sight));
   add_part(setup, has_body ? deviation : coarse, !has_body, obstacles);
   for (const Part& fixture : setup.fixtures) add_fixture(fixture, deviation, obstacles, notes);
   scene.obstacles = ObstacleSet(std::move(obstacles));

@@ -12,6 +12,8 @@ namespace flank::internal {
 
 struct ClearanceScene {
   ObstacleSet obstacles;  ///< faces of the part, then fixtures
+  /// The part's faces alone and coarsely, in milliseconds: for what needs not be known to a hundredth of a millimetre, as whether anything stands in a line.
+  ObstacleSet sight;
   ClearanceOptions options;
   bool has_body =
       false;  ///< shank or holder are measured; else the part's faces are there for what might hold the tool alone
