@@ -173,8 +173,8 @@ Candidate SideFitter::quick(const SideStart& start, const FlankFitOptions& asked
   const FlankFitOptions fit = possible(asked, tasks.front().motion.axis_length);
   if (!options_.slender && fit.bounds.slenderest != asked.bounds.slenderest) return candidate;
   const double tip = std::min(start.radius_mm, start.tip_mm);
-  const double half_angle = std::atan2(start.radius_mm - tip, tasks.front().motion.axis_length);
-  FitDraft draft = start_draft(tasks, tool_, tip, std::sin(half_angle));
+  const double slope = std::clamp((start.radius_mm - tip) / tasks.front().motion.axis_length, 0.0, 1.0);
+  FitDraft draft = start_draft(tasks, tool_, tip, slope);
   draft.facing = options_.facing;
   FitStage stage = quick_stage(robust_scale(*left_.target, fit));
   if (draft.facing) set_motion_weights(stage, kQuickParallel * fit.tolerance_mm, left_.target->diagonal());

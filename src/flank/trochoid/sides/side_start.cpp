@@ -224,7 +224,7 @@ LaidSides lay_sides(const CavitySide& left, const CavitySide& right, const Chart
 
 /// The start as a cone of this tip, which is at the lower end of its lines.
 RuledStart widening(const Chart& chart, RuledStart start, double tip_mm, double length, const Vec3& above) {
-  start.lean_rad = std::atan((start.radius_mm - tip_mm) / length);
+  start.lean_rad = std::asin(std::clamp((start.radius_mm - tip_mm) / length, 0.0, 1.0));
   start.radius_mm = tip_mm;
   start.tip_high = axis_line(chart, start, 0.5).direction.dot(above) < 0.0;
   return start;
