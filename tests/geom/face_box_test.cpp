@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "flank/geom/tessellate.h"
+#include "flank/geom/trim.h"
 
 namespace flank::internal {
 namespace {
@@ -17,16 +18,7 @@ Face bowl(double u0, double u1, double v0, double v1) {
   s.count_u = s.count_v = 3;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) s.poles.emplace_back(5.0 * i, 5.0 * j, (i == 2 ? 10.0 : 0.0) + (j == 2 ? 10.0 : 0.0));
-  const auto edge = [](const Vec2& a, const Vec2& b) {
-    BSplineCurve2 line;
-    line.degree = 1;
-    line.knots = {0, 0, 1, 1};
-    line.poles.resize(2, 2);
-    line.poles << a, b;
-    return line;
-  };
-  const Vec2 a(u0, v0), b(u1, v0), c(u1, v1), d(u0, v1);
-  face.loops = {{{edge(a, b), edge(b, c), edge(c, d), edge(d, a)}}};
+  face.loops = {rectangle_loop({u0, u1, v0, v1})};
   return face;
 }
 

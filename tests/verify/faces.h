@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "flank/face.h"
+#include "flank/geom/trim.h"
 
 namespace flank::internal::test {
 
@@ -53,15 +54,8 @@ inline Face corner_face(const std::string& id, double width, double length) {
 /// A polygon as a loop of straight edges.
 inline TrimLoop polygon(const std::vector<Vec2>& corners) {
   TrimLoop loop;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    BSplineCurve2 edge;
-    edge.degree = 1;
-    edge.knots = {0, 0, 1, 1};
-    edge.poles.resize(2, 2);
-    edge.poles.col(0) = corners[i];
-    edge.poles.col(1) = corners[(i + 1) % corners.size()];
-    loop.edges.push_back(edge);
-  }
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    loop.edges.push_back(straight_edge(corners[i], corners[(i + 1) % corners.size()]));
   return loop;
 }
 

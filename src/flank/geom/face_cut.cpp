@@ -6,6 +6,7 @@
 
 #include "flank/error.h"
 #include "flank/geom/spline_segment.h"
+#include "flank/geom/trim.h"
 
 namespace flank::internal {
 namespace {
@@ -77,16 +78,6 @@ BSplineCurve2 backwards(const BSplineCurve2& c) {
   r.poles = c.poles.rowwise().reverse();
   std::reverse(r.weights.begin(), r.weights.end());
   return r;
-}
-
-/// A line as a curve of degree 1 over [0, 1].
-BSplineCurve2 straight(const Vec2& p, const Vec2& q) {
-  BSplineCurve2 c;
-  c.degree = 1;
-  c.knots = {0.0, 0.0, 1.0, 1.0};
-  c.poles.resize(2, 2);
-  c.poles << p, q;
-  return c;
 }
 
 /// Edges that follow one another; from the line to the line, if it is cut.
@@ -217,7 +208,7 @@ std::vector<TrimLoop> joined(std::vector<Chain> chains, int axis) {
       const Vec2 to = next.chain == first ? start_of({loop.edges.front()})
                       : next.last         ? end_of(chains[next.chain])
                                           : start_of(chains[next.chain]);
-      if ((to - from).norm() > 0.0) loop.edges.push_back(straight(from, to));
+      if ((to - from).norm() > 0.0) loop.edges.push_back(straight_edge(from, to));
       chain = next.chain;
       backward = next.last;
     }

@@ -195,17 +195,19 @@ TrimRegion::Side TrimRegion::classify(const ParameterRectangle& r) const {
   return inside(0.5 * (r.u0 + r.u1), 0.5 * (r.v0 + r.v1)) ? Side::kInside : Side::kOutside;
 }
 
+BSplineCurve2 straight_edge(const Vec2& from, const Vec2& to) {
+  BSplineCurve2 edge;
+  edge.degree = 1;
+  edge.knots = {0.0, 0.0, 1.0, 1.0};
+  edge.poles.resize(2, 2);
+  edge.poles << from, to;
+  return edge;
+}
+
 TrimLoop rectangle_loop(const ParameterRectangle& r) {
   const std::array<Vec2, 4> corners{Vec2(r.u0, r.v0), Vec2(r.u1, r.v0), Vec2(r.u1, r.v1), Vec2(r.u0, r.v1)};
   TrimLoop loop;
-  for (std::size_t k = 0; k < 4; ++k) {
-    BSplineCurve2 edge;
-    edge.degree = 1;
-    edge.knots = {0.0, 0.0, 1.0, 1.0};
-    edge.poles.resize(2, 2);
-    edge.poles << corners[k], corners[(k + 1) % 4];
-    loop.edges.push_back(std::move(edge));
-  }
+  for (std::size_t k = 0; k < 4; ++k) loop.edges.push_back(straight_edge(corners[k], corners[(k + 1) % 4]));
   return loop;
 }
 

@@ -57,6 +57,9 @@ class TrimRegion {
   double rows_per_unit_ = 0.0;
 };
 
+/// A straight edge of a loop, over [0, 1].
+[[nodiscard]] BSplineCurve2 straight_edge(const Vec2& from, const Vec2& to);
+
 /// As a share of the rectangle, per direction.
 inline constexpr double kTrimDeviation = 1e-7;
 

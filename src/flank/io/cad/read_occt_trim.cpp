@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "flank/error.h"
+#include "flank/geom/trim.h"
 
 namespace flank::internal {
 namespace {
@@ -31,16 +32,6 @@ using Point2 = Eigen::Vector2d;
 
 bool all_finite(const std::vector<double>& numbers) {
   return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
-}
-
-/// The straight line from p to q over [0, 1].
-BSplineCurve2 line(const Point2& p, const Point2& q) {
-  BSplineCurve2 c;
-  c.degree = 1;
-  c.knots = {0.0, 0.0, 1.0, 1.0};
-  c.poles.resize(2, 2);
-  c.poles << p, q;
-  return c;
 }
 
 Point2 start(const BSplineCurve2& c) { return c.poles.col(0); }
@@ -138,7 +129,7 @@ BSplineCurve2 mapped(const Handle(Geom2d_Curve) & curve, double first, double la
   const bool straight = adaptor.GetType() == GeomAbs_Line;
   if (straight &&
       (std::abs(q.X() - p.X()) * frame.mm_per_u < kSnapMm || std::abs(q.Y() - p.Y()) * frame.mm_per_v < kSnapMm))
-    return line(frame.map({p.X(), p.Y()}), frame.map({q.X(), q.Y()}));
+    return straight_edge(frame.map({p.X(), p.Y()}), frame.map({q.X(), q.Y()}));
   // Kinks of the file's curve are ends of pieces; a cubic cannot follow them.
   TColStd_Array1OfReal breaks(1, adaptor.NbIntervals(GeomAbs_C2) + 1);
   adaptor.Intervals(breaks, GeomAbs_C2);
@@ -175,7 +166,7 @@ TrimLoop closed(const std::vector<BSplineCurve2>& edges, const TrimFrame& frame)
     loop.edges.push_back(edges[i]);
     const Point2 from = end(edges[i]), to = start(edges[(i + 1) % edges.size()]);
     if (frame.length_mm(to - from) > kSnapMm)
-      loop.edges.push_back(line(from, to));
+      loop.edges.push_back(straight_edge(from, to));
     else
       loop.edges.back().poles.col(loop.edges.back().poles.cols() - 1) = to;
   }

@@ -7,6 +7,7 @@
 #include "flank/base/parallel.h"
 #include "flank/geom/mesh_repair.h"
 #include "flank/geom/mesh_topology.h"
+#include "flank/geom/trim.h"
 #include "flank/surface/mesh/mesh_parameters.h"
 #include "flank/surface/mesh/scattered_spline.h"
 
@@ -106,22 +107,6 @@ TrimLoop polygon(const std::vector<int>& loop, const std::vector<Vec2>& uv) {
   return {{curve}};
 }
 
-/// The border of the whole square, which holes are cut from.
-TrimLoop square() {
-  TrimLoop loop;
-  const std::array<Vec2, 5> corner{Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1), Vec2(0, 0)};
-  for (std::size_t i = 0; i < 4; ++i) {
-    BSplineCurve2 line;
-    line.degree = 1;
-    line.knots = {0.0, 0.0, 1.0, 1.0};
-    line.poles.resize(2, 2);
-    line.poles.col(0) = corner[i];
-    line.poles.col(1) = corner[i + 1];
-    loop.edges.push_back(line);
-  }
-  return loop;
-}
-
 /// Whether the spline's normals mostly point against those of the mesh, at about 500 vertices.
 bool against_mesh(const TriangleMesh& mesh, const Fit& fit) {
   double sum = 0.0;
@@ -160,7 +145,7 @@ std::optional<MeshSpline> fit_spline_to_mesh(const TriangleMesh& mesh, const Mes
   const double points = static_cast<double>(sound.vertices.size());
   // Unbiased: as many points as unknowns have no error left in them.
   result.residual_mm = std::sqrt(best.squares / (points - best.surface.count_u * best.surface.count_v));
-  if (parameters->four_sided && !parameters->holes.empty()) result.face.loops.push_back(square());
+  if (parameters->four_sided && !parameters->holes.empty()) result.face.loops.push_back(rectangle_loop({}));
   for (const auto& hole : parameters->holes) result.face.loops.push_back(polygon(hole, best.uv));
   return result;
 }

@@ -1,5 +1,7 @@
 #include "flank/verify/proof/border.h"
 
+#include "flank/geom/trim.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -19,22 +21,12 @@ std::vector<double> distinct_knots(const std::vector<double>& knots, double firs
   return out;
 }
 
-BSplineCurve2 line_between(const Vec2& a, const Vec2& b) {
-  BSplineCurve2 line;
-  line.degree = 1;
-  line.knots = {0.0, 0.0, 1.0, 1.0};
-  line.poles.resize(2, 2);
-  line.poles.col(0) = a;
-  line.poles.col(1) = b;
-  return line;
-}
-
 std::vector<BSplineCurve2> border_curves(const Face& face) {
   std::vector<BSplineCurve2> curves;
   for (const TrimLoop& loop : face.loops) {
     const std::size_t start = curves.size();
     const auto close = [&](const Vec2& from, const Vec2& to) {
-      if ((from.array() != to.array()).any()) curves.push_back(line_between(from, to));
+      if ((from.array() != to.array()).any()) curves.push_back(straight_edge(from, to));
     };
     for (const BSplineCurve2& edge : loop.edges) {
       if (curves.size() > start) close(curves.back().value(curves.back().last()), edge.value(edge.first()));

@@ -46,7 +46,4 @@ class Border {
 /// Inner knots across which a surface has a kink or worse, ascending.
 [[nodiscard]] std::vector<double> kinks(const std::vector<double>& knots, int degree, double first, double last);
 
-/// A straight line in the parameter plane.
-[[nodiscard]] BSplineCurve2 line_between(const Vec2& a, const Vec2& b);
-
 }  // namespace flank::internal::verify

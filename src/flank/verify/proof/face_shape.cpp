@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "flank/geom/trim.h"
 #include "flank/verify/proof/border.h"
 #include "flank/verify/proof/patch_bounds.h"
 
@@ -33,8 +34,8 @@ class FaceShape final : public Shape {
     knots_v_ = distinct_knots(s_.knots_v, s_.v_first(), s_.v_last());
     kinks_u_ = kinks(s_.knots_u, s_.degree_u, s_.u_first(), s_.u_last());
     kinks_v_ = kinks(s_.knots_v, s_.degree_v, s_.v_first(), s_.v_last());
-    for (double u : kinks_u_) curves_.push_back(line_between({u, domain_.low.y()}, {u, domain_.high.y()}));
-    for (double v : kinks_v_) curves_.push_back(line_between({domain_.low.x(), v}, {domain_.high.x(), v}));
+    for (double u : kinks_u_) curves_.push_back(straight_edge({u, domain_.low.y()}, {u, domain_.high.y()}));
+    for (double v : kinks_v_) curves_.push_back(straight_edge({domain_.low.x(), v}, {domain_.high.x(), v}));
   }
 
   [[nodiscard]] std::vector<Cell> first() const override {
@@ -120,7 +121,7 @@ class FaceShape final : public Shape {
 
   void add_frame(const Rectangle& r) {
     const std::array<Vec2, 4> corners{r.low, Vec2(r.high.x(), r.low.y()), r.high, Vec2(r.low.x(), r.high.y())};
-    for (std::size_t k = 0; k < 4; ++k) curves_.push_back(line_between(corners[k], corners[(k + 1) % 4]));
+    for (std::size_t k = 0; k < 4; ++k) curves_.push_back(straight_edge(corners[k], corners[(k + 1) % 4]));
   }
 
   // |S_u x S_v| in the middle, and half of the largest derivative of that product besides.
