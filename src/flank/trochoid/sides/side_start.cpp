@@ -193,8 +193,6 @@ Vec3 towards_wider(const RuledMotion& left, const RuledMotion& right) {
   return width(left.axis_length) >= width(0.0) ? a.axis : Vec3(-a.axis);
 }
 
-}  // namespace
-
 /// Both sides, laid.
 struct LaidSides {
   Laid left, right;
@@ -229,6 +227,8 @@ RuledStart widening(const Chart& chart, RuledStart start, double tip_mm, double 
   start.tip_high = axis_line(chart, start, 0.5).direction.dot(above) < 0.0;
   return start;
 }
+
+}  // namespace
 
 std::vector<FitTask> side_tasks(const CavitySide& left, const CavitySide& right, const Chart& left_chart,
                                 const Chart& right_chart, const SideStart& start, int layers,
