@@ -93,7 +93,6 @@ struct ClearanceFigure {
   int strip = -1;                   ///< 0-based
   double t = 0.0;                   ///< pose index + fraction
   double z_mm = 0.0, rho_mm = 0.0;  ///< nearest point of the body: along the axis from s = 0, and from the axis
-  int obstacle_index = -1;  ///< number of the obstacle in the set; -1: nothing is near, or it was read from a file
 };
 
 /// Empty: nothing was requested, or the tool has neither shank nor holder and there are no fixtures.

@@ -54,11 +54,7 @@ BallRoom::BallRoom(const Setup& setup, std::vector<const Target*> faces, const s
   if (setup.part.is_mesh()) return;
   for (const auto& [solid, of_solid] : whole_solids(setup)) {
     Box3 box;
-    for (const int face : of_solid) {
-      const Box3 poles = box_of(setup.part.faces[static_cast<std::size_t>(face)]);
-      box.add(poles.low);
-      box.add(poles.high);
-    }
+    for (const int face : of_solid) box.add(box_of(setup.part.faces[static_cast<std::size_t>(face)]));
     if (!internal::near(box, near, kReach * radius_mm)) continue;
     solids_.emplace_back(joined(setup.part, of_solid, near, radius_mm));
     scene_.of_solid = scene_.of_solid || std::find(of_solid.begin(), of_solid.end(), own.front()) != of_solid.end();

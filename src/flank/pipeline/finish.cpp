@@ -131,8 +131,7 @@ void judge_result(const Setup& setup, const ClearanceScene& scene, std::vector<S
     grace.emplace(kPatience);
     result.verify = quick_verdict(setup, request_of(result), scene, result);
   }
-  const std::vector<std::string>& caveats = result.verify.clearance.notes;
-  result.notes.insert(result.notes.end(), caveats.begin(), caveats.end());
+  add_caveats(result.verify, result.notes);
   auto drawings = std::make_shared<Result::Drawings>();
   drawings->strips = std::move(surfaces);
   drawings->view = make_view(result.job, setup, result.tool, result.path, result.verify);

@@ -18,8 +18,8 @@ namespace {
 constexpr double kFinestMm = 0.002, kCoarsestMm = 0.02;  ///< deviation of the triangles, about half the tolerance
 constexpr double kSizeShare = 1e-3;  ///< of the part: deviation where only what might hold the tool is asked
 
-bool holds(const std::vector<int>& faces, std::size_t face) {
-  return std::find(faces.begin(), faces.end(), static_cast<int>(face)) != faces.end();
+bool holds(const std::vector<int>& faces, int face) {
+  return std::find(faces.begin(), faces.end(), face) != faces.end();
 }
 
 /// The triangles as an obstacle, with what is wrong with them.
@@ -44,38 +44,50 @@ FaceTriangles coarse_triangles(const Face& face, double deviation) {
   return out;
 }
 
-/// A face of the part, whose triangles are made when something comes near its box.
-DistantObstacle distant(const Part& part, std::size_t k, const std::string& name, ObstacleRole role, double deviation,
-                        bool coarse) {
-  if (part.is_mesh()) {
-    const auto mesh = std::make_shared<const TriangleMesh>(extract_mesh(part, {static_cast<int>(k)}));
-    return {name, role, mesh->box(), [=] { return Obstacle{name, role, *mesh, 0.0, {}}; }};
-  }
-  const auto face = std::make_shared<const Face>(part.faces[k]);
-  return {name, role, box_of(*face), [=] {
-            return as_obstacle(coarse ? coarse_triangles(*face, deviation) : triangulate_face(*face, deviation), name,
-                               role, deviation);
-          }};
-}
+/// A face of a part, whose triangles are made when something comes near its box.
+struct Place {
+  std::string name;
+  ObstacleRole role;
+  std::shared_ptr<const Face> face;          ///< none of a mesh
+  std::shared_ptr<const TriangleMesh> mesh;  ///< none of a CAD part
+  Box3 box;
 
-void add_part(const Setup& setup, double deviation, bool coarse, std::vector<DistantObstacle>& obstacles) {
-  const Part& part = setup.part;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(part.face_count()); ++k) {
-    const bool target = holds(setup.targets, k);
-    if ((!target && !holds(setup.checks, k)) || part.is_left_out(static_cast<int>(k))) continue;
-    obstacles.push_back(distant(part, k, part.face_id(static_cast<int>(k)),
-                                target ? ObstacleRole::kTarget : ObstacleRole::kPart, deviation, coarse));
+  Place(const Part& part, int k, std::string called, ObstacleRole as) : name(std::move(called)), role(as) {
+    if (part.is_mesh())
+      mesh = std::make_shared<const TriangleMesh>(extract_mesh(part, {k}));
+    else
+      face = std::make_shared<const Face>(part.faces[static_cast<std::size_t>(k)]);
+    box = mesh ? mesh->box() : box_of(*face);
   }
+
+  [[nodiscard]] DistantObstacle cut(double deviation, FaceTriangles (*triangles)(const Face&, double)) const {
+    return {name, role, box, [of = *this, deviation, triangles] {
+              if (of.mesh) return Obstacle{of.name, of.role, *of.mesh, 0.0, {}};
+              return as_obstacle(triangles(*of.face, deviation), of.name, of.role, deviation);
+            }};
+  }
+};
+
+/// The faces that count.
+std::vector<Place> places_of(const Setup& setup) {
+  const Part& part = setup.part;
+  std::vector<Place> places;
+  for (int k = 0; k < part.face_count(); ++k) {
+    const bool target = holds(setup.targets, k);
+    if ((!target && !holds(setup.checks, k)) || part.is_left_out(k)) continue;
+    places.emplace_back(part, k, part.face_id(k), target ? ObstacleRole::kTarget : ObstacleRole::kPart);
+  }
+  return places;
 }
 
 void add_fixture(const Part& fixture, double deviation, std::vector<DistantObstacle>& obstacles,
                  std::vector<std::string>& notes) {
   for (const std::string& repair : fixture.repairs) notes.push_back(fixture.file + ": " + repair);
   const std::string short_name = std::filesystem::path(fixture.file).filename().string();
-  for (std::size_t k = 0; k < static_cast<std::size_t>(fixture.face_count()); ++k)
-    if (!fixture.is_left_out(static_cast<int>(k)))
-      obstacles.push_back(distant(fixture, k, short_name + " " + fixture.face_id(static_cast<int>(k)),
-                                  ObstacleRole::kFixture, deviation, false));
+  for (int k = 0; k < fixture.face_count(); ++k)
+    if (!fixture.is_left_out(k))
+      obstacles.push_back(Place(fixture, k, short_name + " " + fixture.face_id(k), ObstacleRole::kFixture)
+                              .cut(deviation, triangulate_face));
 }
 
 }  // namespace
@@ -92,9 +104,11 @@ ClearanceScene make_clearance_scene(const Setup& setup, const ObstacleRequest& r
   // Whether something is in the way of a tool that is not known yet need not be told to a hundredth of a millimetre.
   const double coarse = std::max(kCoarsestMm, kSizeShare * setup.part.box.diagonal());
   std::vector<DistantObstacle> obstacles, sight;
-  add_part(setup, coarse, true, sight);
+  for (const Place& place : places_of(setup)) {
+    sight.push_back(place.cut(coarse, coarse_triangles));
+    obstacles.push_back(has_body ? place.cut(deviation, triangulate_face) : sight.back());
+  }
   scene.sight = ObstacleSet(std::move(sight));
-  add_part(setup, has_body ? deviation : coarse, !has_body, obstacles);
   for (const Part& fixture : setup.fixtures) add_fixture(fixture, deviation, obstacles, notes);
   scene.obstacles = ObstacleSet(std::move(obstacles));
   return scene;
@@ -103,6 +117,10 @@ ClearanceScene make_clearance_scene(const Setup& setup, const ObstacleRequest& r
 void measure_bodies(const ClearanceScene& scene, const Tool& tool, const Path& path, VerifyReport& report) {
   report.clearance = measure_clearance(scene, tool, path);
   report.hold = judge_hold(tool, path, scene.obstacles, scene.options);
+}
+
+void add_caveats(const VerifyReport& report, std::vector<std::string>& notes) {
+  notes.insert(notes.end(), report.clearance.notes.begin(), report.clearance.notes.end());
 }
 
 namespace {

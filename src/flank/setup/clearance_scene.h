@@ -27,6 +27,9 @@ struct ClearanceScene {
 /// Judges shank, holder and fixtures, and whether anything could hold the tool: fills `clearance` and `hold`.
 void measure_bodies(const ClearanceScene& scene, const Tool& tool, const Path& path, VerifyReport& report);
 
+/// What is inexact about the obstacles that its clearances are about.
+void add_caveats(const VerifyReport& report, std::vector<std::string>& notes);
+
 /// Judges shank, holder and fixtures alone; an empty report if there is nothing to judge.
 [[nodiscard]] ClearanceReport measure_clearance(const ClearanceScene& scene, const Tool& tool, const Path& path);
 

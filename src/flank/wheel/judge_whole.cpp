@@ -60,8 +60,7 @@ Result judged_path(const WheelWork& work, const std::vector<std::string>& faces,
   const DepthProof depth = work.job.sample_mm || care == Care::kDraft ? DepthProof::kSampled : DepthProof::kProved;
   result.verify = judge_job(setup, job.judge, result.tool, result.path, depth);
   measure_bodies(scene, result.tool, result.path, result.verify);
-  const std::vector<std::string>& caveats = result.verify.clearance.notes;
-  result.notes.insert(result.notes.end(), caveats.begin(), caveats.end());
+  add_caveats(result.verify, result.notes);
   auto drawings = std::make_shared<Result::Drawings>();
   drawings->view = make_view(result.job, setup, result.tool, result.path, result.verify);
   result.drawings = std::move(drawings);

@@ -147,8 +147,7 @@ Verification judge_path(const VerifyJob& request, const Job& job, const std::str
   outcome.report = judge_job(setup, job.judge, tool, path);
   const ClearanceScene scene = make_clearance_scene(setup, job.obstacles, has_body(tool), outcome.notes);
   measure_bodies(scene, tool, path, outcome.report);
-  const std::vector<std::string>& caveats = outcome.report.clearance.notes;
-  outcome.notes.insert(outcome.notes.end(), caveats.begin(), caveats.end());
+  add_caveats(outcome.report, outcome.notes);
   const FolderStock stock = replay_stock(job, setup, tool, path, file("blank.json"), outcome);
   std::optional<BendingTool> bending;
   if (request.bending.on) {

@@ -119,8 +119,7 @@ Verification judge(const VerifyJob& request, const Job& job, const ProgramQuesti
   outcome.report = judge_job(setup, q.judge, q.tool, run.plot.path);
   const ClearanceScene scene = make_clearance_scene(setup, q.obstacles, has_body(q.tool), outcome.notes);
   measure_bodies(scene, q.tool, run.plot.path, outcome.report);
-  const std::vector<std::string>& caveats = outcome.report.clearance.notes;
-  outcome.notes.insert(outcome.notes.end(), caveats.begin(), caveats.end());
+  add_caveats(outcome.report, outcome.notes);
   prepend(accept(q.tool, outcome.report, q.judge), outcome.acceptance);
   if (planned.path) replay_stock(job, setup, q, planned, *request.nc.file, run, outcome);
   return outcome;

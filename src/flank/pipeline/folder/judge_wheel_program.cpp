@@ -103,8 +103,7 @@ Verification judge_wheel_program(const VerifyJob& request, const WheelPlan& plan
   all.report = judge_job(setup, question.judge, tool, runs.finish);
   const ClearanceScene scene = make_clearance_scene(setup, question.obstacles, has_body(tool), all.notes);
   measure_bodies(scene, tool, runs.finish, all.report);
-  const std::vector<std::string>& caveats = all.report.clearance.notes;
-  all.notes.insert(all.notes.end(), caveats.begin(), caveats.end());
+  add_caveats(all.report, all.notes);
   prepend(accept(tool, all.report, question.judge), all.acceptance);
   const std::optional<JudgedRoughing> roughing = judge_roughing(plan, setup, runs.rough_sector, runs.rough);
   accept_steps(plan, roughing, all.acceptance);

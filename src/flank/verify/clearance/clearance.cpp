@@ -6,7 +6,6 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "flank/base/parallel.h"
@@ -55,17 +54,11 @@ struct Pair {
   ObstacleRole role;
   const ObstacleStore& obstacles;
   const std::vector<Segment>& segments;
-  std::vector<Box3> boxes = sweep_boxes(body.parts, segments);
+  const Sweep& sweep;
 };
 
-/// The obstacles that are looked at first, mm; then those within four times as much, until nothing nearer can be left. Where nothing is said of
-/// the radius, there is nothing to measure.
-double first_reach(const Body& body) {
-  double radius = 0.0;
-  for (const Revolved& part : body.parts)
-    for (const Vec2& c : part.corners()) radius = std::max(radius, c.y() + part.rounding());
-  return std::max(radius, kPoseClearanceMm);
-}
+/// The obstacles within this are looked at first, mm; then those within so many times as much, until nothing nearer can be left.
+double first_reach(const Pair& pair) { return std::max(pair.sweep.radius_mm, kPoseClearanceMm); }
 constexpr double kFarther = 4.0;
 
 /// What is nearest, and the obstacles that it is one of.
@@ -75,9 +68,9 @@ struct Nearest {
 };
 
 Nearest nearest_of(const Pair& pair, double accuracy_mm) {
-  for (double reach = first_reach(pair.body);; reach *= kFarther) {
+  for (double reach = first_reach(pair);; reach *= kFarther) {
     const double limit = std::min(reach, pair.body.limit_mm);
-    auto scene = pair.obstacles.near(pair.role, pair.boxes, limit);
+    auto scene = pair.obstacles.near(pair.role, pair.sweep, limit);
     const bool last = scene->whole || limit >= pair.body.limit_mm;
     GapPlace place;
     if (!scene->tree.empty())
@@ -87,7 +80,8 @@ Nearest nearest_of(const Pair& pair, double accuracy_mm) {
   }
 }
 
-ClearanceFigure measure(const Pair& pair, const ClearanceOptions& options) {
+/// `notes` gets what is inexact about the obstacle.
+ClearanceFigure measure(const Pair& pair, const ClearanceOptions& options, std::vector<std::string>& notes) {
   ClearanceFigure figure;
   figure.body = pair.body.name;
   figure.role = pair.role;
@@ -101,8 +95,10 @@ ClearanceFigure measure(const Pair& pair, const ClearanceOptions& options) {
   figure.clearance_mm = place.value;
   figure.bound_mm = gap_bound(place.value, options.accuracy_mm) + pair.body.deviation_mm + scene->deviation_mm;
   figure.kept = figure.clearance_mm - figure.bound_mm >= figure.required_mm;
-  figure.obstacle_index = scene->obstacle_of[static_cast<std::size_t>(place.triangle)];
-  figure.obstacle = pair.obstacles.made(figure.obstacle_index).name;
+  const Obstacle& nearest = pair.obstacles.made(scene->obstacle_of[static_cast<std::size_t>(place.triangle)]);
+  figure.obstacle = nearest.name;
+  if (!nearest.caveat.empty() && std::find(notes.begin(), notes.end(), nearest.caveat) == notes.end())
+    notes.push_back(nearest.caveat);
   figure.point = place.point;
   figure.strip = segment.strip;
   figure.t = segment.pose + place.tau;
@@ -127,9 +123,11 @@ double spare(const ClearanceFigure& f) { return f.clearance_mm - f.bound_mm - f.
 ClearanceFigure tightest(const Body& body, const ObstacleSet& obstacles, const std::vector<Segment>& segments,
                          const ClearanceOptions& options) {
   std::optional<ClearanceFigure> least;
+  const Sweep sweep = sweep_of(body.parts, segments);
+  std::vector<std::string> unsaid;  // it is measured coarsely anyway
   for (const ObstacleRole role : kRoles) {
     if (!store_of(obstacles).has(role) || role == ObstacleRole::kFixture) continue;
-    const ClearanceFigure here = measure({body, role, store_of(obstacles), segments}, options);
+    const ClearanceFigure here = measure({body, role, store_of(obstacles), segments, sweep}, options, unsaid);
     if (!least || spare(here) < spare(*least)) least = here;
   }
   return *least;
@@ -158,8 +156,8 @@ std::vector<PosesOf> poses_of(const std::vector<Segment>& segments, std::vector<
 void lower_to(std::vector<std::vector<double>>& by_strip, const Pair& pair) {
   constexpr std::size_t kGrain = 16;  // segments per task; each is one query of a tree
   std::vector<PosesOf> open = poses_of(pair.segments, by_strip);
-  for (double reach = first_reach(pair.body); !open.empty(); reach *= kFarther) {
-    const auto scene = pair.obstacles.near(pair.role, pair.boxes, reach);
+  for (double reach = first_reach(pair); !open.empty(); reach *= kFarther) {
+    const auto scene = pair.obstacles.near(pair.role, pair.sweep, reach);
     const double limit = scene->whole ? std::numeric_limits<double>::max() : reach;
     if (!scene->tree.empty()) {
       const MotionGap gap(pair.body.parts, scene->tree, pair.segments);
@@ -220,23 +218,16 @@ struct Pairs {
 
   /// Until a call says that it is enough.
   void each(const std::function<bool(const Pair&)>& call) const {
-    for (const Body& body : bodies)
+    for (const Body& body : bodies) {
+      const Sweep sweep = sweep_of(body.parts, segments);
       for (const ObstacleRole role : kRoles) {
         const bool judged_elsewhere = body.name == ToolBody::kFlank && role != ObstacleRole::kFixture;
         if (body.parts.empty() || !obstacles.has(role) || judged_elsewhere) continue;
-        if (!call({body, role, obstacles, segments})) return;
+        if (!call({body, role, obstacles, segments, sweep})) return;
       }
+    }
   }
 };
-
-void note_caveats(const ObstacleStore& obstacles, ClearanceReport& report) {
-  std::set<int> told;
-  for (const ClearanceFigure& figure : report.figures) {
-    if (figure.obstacle_index < 0 || !told.insert(figure.obstacle_index).second) continue;
-    const std::string& caveat = obstacles.made(figure.obstacle_index).caveat;
-    if (!caveat.empty()) report.notes.push_back(caveat);
-  }
-}
 
 }  // namespace
 
@@ -247,11 +238,10 @@ ClearanceReport judge_clearance(const Tool& tool, const Path& path, const Obstac
   for (const Strip& strip : path.strips)
     report.pose_clearance_mm.emplace_back(strip.poses.size(), std::numeric_limits<double>::infinity());
   pairs.each([&](const Pair& pair) {
-    report.figures.push_back(measure(pair, options));
+    report.figures.push_back(measure(pair, options, report.notes));
     if (!may_touch(pair.body.name, pair.role)) lower_to(report.pose_clearance_mm, pair);
     return true;
   });
-  note_caveats(store_of(obstacles), report);
   return report;
 }
 
@@ -264,7 +254,7 @@ bool keeps_clear(const Tool& tool, const Path& path, const ObstacleSet& obstacle
     if (pair.body.name == ToolBody::kShank) least = std::max(least, shank_least_mm);
     // What is farther than that is clear of the body, however well it is known.
     const auto scene =
-        pair.obstacles.near(pair.role, pair.boxes, std::max(0.0, least) + pair.body.deviation_mm + options.accuracy_mm);
+        pair.obstacles.near(pair.role, pair.sweep, std::max(0.0, least) + pair.body.deviation_mm + options.accuracy_mm);
     if (scene->tree.empty()) return true;
     least += pair.body.deviation_mm + scene->deviation_mm;
     kept = MotionGap(pair.body.parts, scene->tree, pair.segments).stays_above(least, options.accuracy_mm);

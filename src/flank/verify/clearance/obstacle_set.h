@@ -13,8 +13,13 @@
 
 namespace flank::internal::verify {
 
-/// Boxes that hold a body on its whole way.
-[[nodiscard]] std::vector<Box3> sweep_boxes(const std::vector<Revolved>& body, const std::vector<Segment>& segments);
+/// Where a body is on its whole way, roughly.
+struct Sweep {
+  std::vector<Box3> boxes;  ///< hold it; none of a body that is nowhere
+  double radius_mm = 0.0;   ///< of the body where it is thickest
+};
+
+[[nodiscard]] Sweep sweep_of(const std::vector<Revolved>& body, const std::vector<Segment>& segments);
 
 /// Obstacles of one role as one mesh that remembers where its triangles come from.
 struct ObstacleScene {
@@ -30,10 +35,9 @@ class ObstacleStore {
   explicit ObstacleStore(std::vector<DistantObstacle> given);
 
   [[nodiscard]] bool has(ObstacleRole role) const;
-  /// All obstacles of a role that may be nearer than `reach_mm` to what the boxes hold; some that are not. The same for the same question,
+  /// All obstacles of a role that may be nearer than `reach_mm` >= 0 to the body on its way; some that are not. The same for the same question,
   /// whatever was asked before.
-  [[nodiscard]] std::shared_ptr<const ObstacleScene> near(ObstacleRole role, const std::vector<Box3>& boxes,
-                                                          double reach_mm) const;
+  [[nodiscard]] std::shared_ptr<const ObstacleScene> near(ObstacleRole role, const Sweep& sweep, double reach_mm) const;
   [[nodiscard]] const Obstacle& made(int obstacle) const;
 
   const std::vector<DistantObstacle> obstacles;
