@@ -54,11 +54,11 @@ struct Pair {
   ObstacleRole role;
   const ObstacleStore& obstacles;
   const std::vector<Segment>& segments;
-  const Sweep& sweep;
+  const BodyWay& way;
 };
 
 /// The obstacles within this are looked at first, mm; then those within so many times as much, until nothing nearer can be left.
-double first_reach(const Pair& pair) { return std::max(pair.sweep.radius_mm, kPoseClearanceMm); }
+double first_reach(const Pair& pair) { return std::max(pair.way.radius_mm, kPoseClearanceMm); }
 constexpr double kFarther = 4.0;
 
 /// What is nearest, and the obstacles that it is one of.
@@ -70,7 +70,7 @@ struct Nearest {
 Nearest nearest_of(const Pair& pair, double accuracy_mm) {
   for (double reach = first_reach(pair);; reach *= kFarther) {
     const double limit = std::min(reach, pair.body.limit_mm);
-    auto scene = pair.obstacles.near(pair.role, pair.sweep, limit);
+    auto scene = pair.obstacles.near(pair.role, pair.way, limit);
     const bool last = scene->whole || limit >= pair.body.limit_mm;
     GapPlace place;
     if (!scene->tree.empty())
@@ -123,11 +123,11 @@ double spare(const ClearanceFigure& f) { return f.clearance_mm - f.bound_mm - f.
 ClearanceFigure tightest(const Body& body, const ObstacleSet& obstacles, const std::vector<Segment>& segments,
                          const ClearanceOptions& options) {
   std::optional<ClearanceFigure> least;
-  const Sweep sweep = sweep_of(body.parts, segments);
+  const BodyWay way = way_of(body.parts, segments);
   std::vector<std::string> unsaid;  // it is measured coarsely anyway
   for (const ObstacleRole role : kRoles) {
     if (!store_of(obstacles).has(role) || role == ObstacleRole::kFixture) continue;
-    const ClearanceFigure here = measure({body, role, store_of(obstacles), segments, sweep}, options, unsaid);
+    const ClearanceFigure here = measure({body, role, store_of(obstacles), segments, way}, options, unsaid);
     if (!least || spare(here) < spare(*least)) least = here;
   }
   return *least;
@@ -157,7 +157,7 @@ void lower_to(std::vector<std::vector<double>>& by_strip, const Pair& pair) {
   constexpr std::size_t kGrain = 16;  // segments per task; each is one query of a tree
   std::vector<PosesOf> open = poses_of(pair.segments, by_strip);
   for (double reach = first_reach(pair); !open.empty(); reach *= kFarther) {
-    const auto scene = pair.obstacles.near(pair.role, pair.sweep, reach);
+    const auto scene = pair.obstacles.near(pair.role, pair.way, reach);
     const double limit = scene->whole ? std::numeric_limits<double>::max() : reach;
     if (!scene->tree.empty()) {
       const MotionGap gap(pair.body.parts, scene->tree, pair.segments);
@@ -219,11 +219,11 @@ struct Pairs {
   /// Until a call says that it is enough.
   void each(const std::function<bool(const Pair&)>& call) const {
     for (const Body& body : bodies) {
-      const Sweep sweep = sweep_of(body.parts, segments);
+      const BodyWay way = way_of(body.parts, segments);
       for (const ObstacleRole role : kRoles) {
         const bool judged_elsewhere = body.name == ToolBody::kFlank && role != ObstacleRole::kFixture;
         if (body.parts.empty() || !obstacles.has(role) || judged_elsewhere) continue;
-        if (!call({body, role, obstacles, segments, sweep})) return;
+        if (!call({body, role, obstacles, segments, way})) return;
       }
     }
   }
@@ -254,7 +254,7 @@ bool keeps_clear(const Tool& tool, const Path& path, const ObstacleSet& obstacle
     if (pair.body.name == ToolBody::kShank) least = std::max(least, shank_least_mm);
     // What is farther than that is clear of the body, however well it is known.
     const auto scene =
-        pair.obstacles.near(pair.role, pair.sweep, std::max(0.0, least) + pair.body.deviation_mm + options.accuracy_mm);
+        pair.obstacles.near(pair.role, pair.way, std::max(0.0, least) + pair.body.deviation_mm + options.accuracy_mm);
     if (scene->tree.empty()) return true;
     least += pair.body.deviation_mm + scene->deviation_mm;
     kept = MotionGap(pair.body.parts, scene->tree, pair.segments).stays_above(least, options.accuracy_mm);

@@ -65,22 +65,22 @@ ObstacleScene scene_of(const ObstacleStore& store, const std::vector<int>& which
 
 }  // namespace
 
-Sweep sweep_of(const std::vector<Revolved>& body, const std::vector<Segment>& segments) {
+BodyWay way_of(const std::vector<Revolved>& body, const std::vector<Segment>& segments) {
   if (body.empty() || segments.empty()) return {};
   const Extent extent(body);
   const std::size_t block = 1 + (segments.size() - 1) / kMostBlocks;
   const double wide = (extent.high - extent.low) / std::max(2.0 * extent.radius, 1e-300);
   const std::size_t pieces = std::clamp(static_cast<std::size_t>(std::min(wide, 1e6)), std::size_t{1}, kMostPieces);
-  Sweep sweep{{}, extent.radius};
+  BodyWay way{{}, extent.radius};
   for (std::size_t first = 0; first < segments.size(); first += block)
     for (std::size_t p = 0; p < pieces; ++p) {
       const double step = (extent.high - extent.low) / static_cast<double>(pieces);
       const double low = extent.low + static_cast<double>(p) * step;
-      Box3& box = sweep.boxes.emplace_back();
+      Box3& box = way.boxes.emplace_back();
       for (std::size_t k = first; k < std::min(segments.size(), first + block); ++k)
         add_piece(box, segments[k], low, low + step, extent.radius);
     }
-  return sweep;
+  return way;
 }
 
 }  // namespace internal::verify
@@ -107,13 +107,13 @@ const Obstacle& ObstacleStore::made(int obstacle) const {
   return made_[k];
 }
 
-std::shared_ptr<const ObstacleScene> ObstacleStore::near(ObstacleRole role, const Sweep& sweep, double reach_mm) const {
+std::shared_ptr<const ObstacleScene> ObstacleStore::near(ObstacleRole role, const BodyWay& way, double reach_mm) const {
   Box3 all;
-  for (const Box3& box : sweep.boxes) all.add(box);
+  for (const Box3& box : way.boxes) all.add(box);
   const double limit = reach_mm * reach_mm;
   const auto is_near = [&](const Box3& box) {
     return squared_distance(all, box) <= limit &&
-           std::any_of(sweep.boxes.begin(), sweep.boxes.end(),
+           std::any_of(way.boxes.begin(), way.boxes.end(),
                        [&](const Box3& swept) { return squared_distance(swept, box) <= limit; });
   };
   std::vector<int> which;

@@ -14,12 +14,12 @@
 namespace flank::internal::verify {
 
 /// Where a body is on its whole way, roughly.
-struct Sweep {
+struct BodyWay {
   std::vector<Box3> boxes;  ///< hold it; none of a body that is nowhere
   double radius_mm = 0.0;   ///< of the body where it is thickest
 };
 
-[[nodiscard]] Sweep sweep_of(const std::vector<Revolved>& body, const std::vector<Segment>& segments);
+[[nodiscard]] BodyWay way_of(const std::vector<Revolved>& body, const std::vector<Segment>& segments);
 
 /// Obstacles of one role as one mesh that remembers where its triangles come from.
 struct ObstacleScene {
@@ -37,7 +37,7 @@ class ObstacleStore {
   [[nodiscard]] bool has(ObstacleRole role) const;
   /// All obstacles of a role that may be nearer than `reach_mm` >= 0 to the body on its way; some that are not. The same for the same question,
   /// whatever was asked before.
-  [[nodiscard]] std::shared_ptr<const ObstacleScene> near(ObstacleRole role, const Sweep& sweep, double reach_mm) const;
+  [[nodiscard]] std::shared_ptr<const ObstacleScene> near(ObstacleRole role, const BodyWay& way, double reach_mm) const;
   [[nodiscard]] const Obstacle& made(int obstacle) const;
 
   const std::vector<DistantObstacle> obstacles;
