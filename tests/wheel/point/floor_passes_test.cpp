@@ -38,16 +38,19 @@ void add_plane(const Vec3& corner, const Vec3& along_u, const Vec3& along_v, Tri
 
 /// Along x; the wheel's axis is far below, so that the floor is nearly flat. A right-handed turn about it goes towards -y.
 struct Channel {
+  explicit Channel(double widens_mm = 0.0) : widens(widens_mm) {}
+  double widens;  ///< from one end to the other, mm
   Vec3 near_up{0.0, -kLean*kHeight, kHeight}, far_up{0.0, kLean*kHeight, kHeight};
-  Vec3 along = kLength * Vec3::UnitX(), across = kWidth * Vec3::UnitY(), far_corner{0.0, kWidth, 0.0};
+  Vec3 along = kLength * Vec3::UnitX(), across = (kWidth + widens) * Vec3::UnitY(), far_corner{0.0, kWidth, 0.0},
+       far_along = along + widens * Vec3::UnitY();
   std::unique_ptr<Target> floor = make_target({plane(Vec3::Zero(), along, across)});
   std::unique_ptr<Target> near = make_target({plane(Vec3::Zero(), near_up, along)});
-  std::unique_ptr<Target> far = make_target({plane(far_corner, along, far_up)});
+  std::unique_ptr<Target> far = make_target({plane(far_corner, far_along, far_up)});
   TriangleBvh coarse = [this] {
     TriangleMesh all;
     add_plane(Vec3::Zero(), along, across, all);
     add_plane(Vec3::Zero(), near_up, along, all);
-    add_plane(far_corner, along, far_up, all);
+    add_plane(far_corner, far_along, far_up, all);
     return TriangleBvh(all);
   }();
   RadialFunction radial{ToolFamily::kCylinder, kAxis, Eigen::VectorXd::Constant(1, kTip)};
@@ -105,6 +108,30 @@ TEST(PointPasses, FinishFloorAndWallsAndCutNothing) {
     EXPECT_GE(wall.least, -0.4 * kTolerance);
     EXPECT_LE(wall.most, kTolerance);
   }
+}
+
+/// Passes that were a share of the way across would be closer than they need be where the channel is narrow.
+TEST(PointPasses, AreNoCloserThanTheScallopAsksWhereTheChannelIsNarrow) {
+  constexpr double kWidens = 12.0;
+  const Channel channel(kWidens);
+  const Path path = channel.passes(true);
+  Tool tool;
+  tool.radial = channel.radial;
+  const SweptVolume volume(tool, path);
+  const double corner = kTip * std::tan(0.5 * (0.5 * M_PI - std::atan(kLean)));
+  for (const double x : {0.2, 0.5, 0.8}) {  // pieces across of which the floor is about a rectangle
+    const double width = kWidth + x * kWidens;
+    const Left floor = left_of(volume, (x - 0.05) * channel.along, 0.1 * channel.along, width * Vec3::UnitY(),
+                               (corner + 0.1) / width, 1.0 - (corner + 0.7) / width);
+    EXPECT_GE(floor.least, -1e-6);
+    EXPECT_LE(floor.most, kTolerance);
+  }
+  double ours = 0.0;
+  for (const Strip& strip : path.strips)
+    for (std::size_t k = 1; k < strip.poses.size(); ++k) ours += (strip.poses[k].tip - strip.poses[k - 1].tip).norm();
+  const double apart = std::sqrt(8.0 * PointOptions().scallop_share * kTolerance * kTip),
+               area = kLength * (kWidth + 0.5 * kWidens - 2.0 * corner);
+  EXPECT_LT(ours, 1.12 * (area / apart + kLength));
 }
 
 /// Something that stands far above the flank, over the middle of the channel.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -43,45 +42,46 @@ struct Plan {
   const TipRoom& room;
   const PointOptions& options;
   std::vector<double> parts;  ///< of each row, that the scallop asks for at least; 0: no pass is there
-  std::size_t passes = 0;
 };
 
-/// Of a row of `whole` parts, each 2^k-th one is a pass: the largest 2^k that leaves `fewest` parts at least.
-std::size_t stride_of(double whole, double fewest) {
-  std::size_t stride = 1;
-  while (2.0 * static_cast<double>(stride) * fewest <= whole) stride *= 2;
-  return stride;
-}
-
-/// Enough passes for the row that needs most of them. In narrower rows each second, fourth ... is left out: of up to twice as many, the
-/// number is taken with which all rows together have the fewest.
-void count_passes(Plan& plan) {
-  const std::vector<ChannelRow>& rows = plan.channel.rows();
-  double most = 1.0;
-  for (const ChannelRow& row : rows) {
-    const std::optional<TipRoom::Rest> middle = row.open ? plan.channel.rest(row, 0.5) : std::nullopt;
+Plan plan_of(const ChannelRows& channel, const TipRoom& room, const PointOptions& options) {
+  Plan plan{channel, room, options, {}};
+  for (const ChannelRow& row : channel.rows()) {
+    const std::optional<TipRoom::Rest> middle = row.open ? channel.rest(row, 0.5) : std::nullopt;
     plan.parts.push_back(0.0);
     if (!middle) continue;
     const double wide = (row.high - row.low) * row.width * row.square;
-    plan.parts.back() = std::max(1.0, wide / spacing(plan.room.tip_mm(), middle->k1, plan.options));
-    most = std::max(most, std::ceil(plan.parts.back()));
+    plan.parts.back() =
+        std::clamp<double>(wide / spacing(room.tip_mm(), middle->k1, options), 1.0, static_cast<double>(kMostPasses));
   }
-  most = std::min<double>(most, kMostPasses);
-  double least = std::numeric_limits<double>::infinity(), best = most;
-  for (double whole = most; whole < 2.0 * most; ++whole) {
-    double all = 0.0;
-    for (const double fewest : plan.parts)
-      if (fewest > 0.0) all += std::ceil(whole / static_cast<double>(stride_of(whole, fewest)));
-    if (all < least) least = all, best = whole;
-  }
-  plan.passes = static_cast<std::size_t>(best) + 1;
+  return plan;
 }
 
-/// Whether pass j is needed in a row. Those whose number has more factors of two are left out last.
-bool is_needed(const Plan& plan, std::size_t row, std::size_t j) {
-  if (!plan.channel.rows()[row].open || !(plan.parts[row] > 0.0)) return false;
-  if (j == 0 || j + 1 == plan.passes) return true;
-  return j % stride_of(static_cast<double>(plan.passes) - 1.0, plan.parts[row]) == 0;
+/// Passes run beside both sides of the channel, each as far from its neighbour as the scallop allows, up to the middle. Where the channel
+/// widens, one in the middle becomes two: the next one from the low side, and the next one from the high side.
+struct PassNumber {
+  std::size_t from_side = 0;  ///< 0: the outermost one
+  bool at_low = true;
+  /// Whether a row of so many parts, at least 1, is wide enough for it.
+  [[nodiscard]] bool is_needed(double parts) const {
+    const double n = 2.0 * static_cast<double>(from_side);
+    return from_side == 0 || (at_low ? parts > n - 1.0 : parts > n);
+  }
+  /// Its place across such a row, 0 to 1.
+  [[nodiscard]] double share(double parts) const {
+    const double share = std::min(static_cast<double>(from_side) / parts, 0.5);
+    return at_low ? share : 1.0 - share;
+  }
+};
+
+/// From the low side to the high one.
+std::vector<PassNumber> passes_across(const std::vector<double>& parts) {
+  const double most = *std::max_element(parts.begin(), parts.end());
+  std::vector<PassNumber> out, behind;
+  for (PassNumber pass; pass.is_needed(most); ++pass.from_side) out.push_back(pass);
+  for (PassNumber pass{.at_low = false}; pass.is_needed(most); ++pass.from_side) behind.push_back(pass);
+  out.insert(out.end(), behind.rbegin(), behind.rend());
+  return out;
 }
 
 int columns_of(const std::vector<ChannelRow>& rows) {
@@ -119,14 +119,14 @@ std::optional<Pose> pose_at(const Plan& plan, const AxisField& field, std::size_
 }
 
 /// A pass: what is not needed and what has no room is absent.
-PoseRow floor_row(const Plan& plan, const AxisField& field, std::size_t j) {
-  const std::size_t count = plan.parts.size();
-  const double share = static_cast<double>(j) / std::max(1.0, static_cast<double>(plan.passes) - 1.0);
-  PoseRow out(count);
-  for (std::size_t i = 0; i < count; ++i)
-    // A row beyond the last one that needs this pass is taken along: neighbours change over between rows.
-    if (is_needed(plan, i, j) || (i > 0 && is_needed(plan, i - 1, j)) || (i + 1 < count && is_needed(plan, i + 1, j)))
-      out[i] = pose_at(plan, field, i, share);
+PoseRow floor_row(const Plan& plan, const AxisField& field, const PassNumber& pass) {
+  const std::vector<double>& parts = plan.parts;
+  const auto is_needed = [&](std::size_t i) { return parts[i] > 0.0 && pass.is_needed(parts[i]); };
+  PoseRow out(parts.size());
+  for (std::size_t i = 0; i < out.size(); ++i)
+    // A row beyond the last one that needs this pass is taken along: there it meets its neighbour.
+    if (parts[i] > 0.0 && (is_needed(i) || (i > 0 && is_needed(i - 1)) || (i + 1 < out.size() && is_needed(i + 1))))
+      out[i] = pose_at(plan, field, i, pass.share(parts[i]));
   return out;
 }
 
@@ -148,10 +148,10 @@ PoseRow row_beyond(const Plan& plan, const AxisField& field, std::size_t j, bool
 
 std::vector<PoseRow> floor_rows(const ChannelRows& rows, const TipRoom& room, const PointOptions& options,
                                 const AxisField& field) {
-  Plan plan{rows, room, options, {}, 0};
-  count_passes(plan);
-  std::vector<PoseRow> found(plan.passes);
-  parallel_for(found.size(), [&](std::size_t j) { found[j] = floor_row(plan, field, j); });
+  const Plan plan = plan_of(rows, room, options);
+  const std::vector<PassNumber> passes = passes_across(plan.parts);
+  std::vector<PoseRow> found(passes.size());
+  parallel_for(found.size(), [&](std::size_t j) { found[j] = floor_row(plan, field, passes[j]); });
   for (const bool at_low : {true, false})
     for (int j = 1; j < kMostPasses; ++j) {
       PoseRow beyond = row_beyond(plan, field, static_cast<std::size_t>(j), at_low);
