@@ -58,7 +58,7 @@ Plan plan_of(const ChannelRows& channel, const TipRoom& room, const PointOptions
 }
 
 /// Passes run beside both sides of the channel, each as far from its neighbour as the scallop allows, up to the middle. Where the channel
-/// widens, one in the middle becomes two: the next one from the low side, and the next one from the high side.
+/// widens, the next one from the low side leaves the last one from the high side, or the other way round.
 struct PassNumber {
   std::size_t from_side = 0;  ///< 0: the outermost one
   bool at_low = true;
@@ -69,7 +69,7 @@ struct PassNumber {
   }
   /// Its place across such a row, 0 to 1.
   [[nodiscard]] double share(double parts) const {
-    const double share = std::min(static_cast<double>(from_side) / parts, 0.5);
+    const double share = static_cast<double>(from_side) / parts;
     return at_low ? share : 1.0 - share;
   }
 };
