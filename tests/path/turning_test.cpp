@@ -74,12 +74,12 @@ TEST(Turning, AWayBackIsHalfATurnAndNamesItsPlace) {
   Path path;
   path.strips.emplace_back().poses = corner(10.0, 0.1, 1.0);
   path.strips.emplace_back().poses = poses;
-  const Turning turn = sharpest_turn(path, kLength, 2.0);
+  const Turning turn = sharpest_turn(path, kLength, [](const Strip&) { return 2.0; });
   EXPECT_NEAR(turn.angle_rad, std::numbers::pi, 1e-9);
   EXPECT_EQ(turn.strip, 1u);
   EXPECT_NEAR(path.strips[1].poses[turn.pose].tip.x(), 20.0, 2.0);
   path.strips[1].kind = "link";  // in the air
-  EXPECT_NEAR(sharpest_turn(path, kLength, 2.0).angle_rad, 0.1, 1e-9);
+  EXPECT_NEAR(sharpest_turn(path, kLength, [](const Strip&) { return 2.0; }).angle_rad, 0.1, 1e-9);
 }
 
 TEST(Turning, WhatIsFartherApartThanTheWindowIsNoTurn) {
@@ -96,7 +96,7 @@ TEST(Turning, WhatIsFartherApartThanTheWindowIsNoTurn) {
 }
 
 TEST(Turning, APathWithoutAStepHasNone) {
-  EXPECT_EQ(sharpest_turn(Path(), kLength, 1.0).angle_rad, 0.0);
+  EXPECT_EQ(sharpest_turn(Path(), kLength, [](const Strip&) { return 1.0; }).angle_rad, 0.0);
   const std::vector<Pose> still(3, Pose{Vec3::Zero(), Vec3::UnitZ()});
   EXPECT_EQ(sharpest_turn(still, kLength, 1.0).angle_rad, 0.0);
 }

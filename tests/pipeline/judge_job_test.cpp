@@ -98,6 +98,30 @@ TEST(JudgeJob, ASmallFaceOfALargePartIsLookedAtAsFinely) {
   EXPECT_GT(report.coverage_bound.value(), 0.99);
 }
 
+TEST(JudgeJob, AStripTurnsBesideTheFaceThatItMachinesAndNotALargerOne) {
+  auto setup = small_face_of_a_large_part(10.0, 20.0);
+  setup.targets = {0, 1}, setup.checks = {};
+  Tool tool;
+  tool.radial = RadialFunction(ToolFamily::kCylinder, 10.0, Eigen::VectorXd::Constant(1, 2.0));
+  // Round a quarter of a circle of 4 mm: in 1 % of the small face by a few degrees, in 1 % of the large one by 70.
+  Strip strip{.id = 1, .kind = "flank", .face = "F1", .poses = {}};
+  for (int k = 0; k <= 90; ++k) {
+    const double angle = k * M_PI / 180.0;
+    strip.poses.push_back({Vec3(4.0 * std::cos(angle), 4.0 * std::sin(angle), 2.0), Vec3::UnitZ()});
+  }
+  JudgeRequest request;
+  request.sample_mm = 0.8;
+  const auto turn_of = [&](const std::string& face) {
+    strip.face = face;
+    return judge_job(setup, request, tool, Path{{strip}}, DepthProof::kSampled).turn.value().angle_deg;
+  };
+  EXPECT_LT(turn_of("F1"), 5.0);
+  EXPECT_GT(turn_of("F2"), 45.0);
+  EXPECT_EQ(turn_of("F1,F2"), turn_of("F2"));
+  EXPECT_EQ(turn_of(""), turn_of("F2")) << "a path that names no face is no better off";
+  EXPECT_EQ(turn_of("F7"), turn_of("F2")) << "nor one that names another face";
+}
+
 TEST(JudgeJob, ALargeFaceTakesNoMoreSamplesThanAreHeldAtOnce) {
   flank::internal::Setup setup;
   setup.part.faces = {test::plane_face("F1", 230.0, 210.0)};

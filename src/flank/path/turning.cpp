@@ -79,11 +79,11 @@ Turning sharpest_turn(std::span<const Pose> poses, double axis_length, double wi
   return sharpest;
 }
 
-Turning sharpest_turn(const Path& path, double axis_length, double window_mm) {
+Turning sharpest_turn(const Path& path, double axis_length, const std::function<double(const Strip&)>& window_mm) {
   Turning sharpest;
   for (std::size_t k = 0; k < path.strips.size(); ++k) {
     if (path.strips[k].kind == kLinkKind) continue;
-    Turning here = sharpest_turn(path.strips[k].poses, axis_length, window_mm);
+    Turning here = sharpest_turn(path.strips[k].poses, axis_length, window_mm(path.strips[k]));
     here.strip = k;
     if (here.angle_rad > sharpest.angle_rad) sharpest = here;
   }

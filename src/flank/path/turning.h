@@ -1,6 +1,7 @@
 /// How sharply a motion turns.
 #pragma once
 
+#include <functional>
 #include <span>
 
 #include "flank/path.h"
@@ -22,8 +23,10 @@ struct Turning {
 /// turn. Directions are those of chords a 32nd of the window long, so that poses that are set closely at a corner do not hide it, poses
 /// that are far apart do not, either, and the rounding of a program is no turn. Two ends move: for a length L on the part take sqrt(2) L.
 /// Links leave no mark where they turn, and are left out.
-[[nodiscard]] Turning sharpest_turn(const Path& path, double axis_length, double window_mm);
 [[nodiscard]] Turning sharpest_turn(std::span<const Pose> poses, double axis_length, double window_mm);
+/// `window_mm`: of each strip.
+[[nodiscard]] Turning sharpest_turn(const Path& path, double axis_length,
+                                    const std::function<double(const Strip&)>& window_mm);
 
 /// The window of a target of this diagonal, mm.
 [[nodiscard]] double turn_window(double diagonal_mm);

@@ -21,6 +21,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 using FacesOfBlade = std::function<Names(const WheelBlade&)>;
+using IsFinished = std::function<bool(const Vec3&)>;
 
 constexpr double kFinishedShare = 0.92;  ///< of the tolerance: what is left so much more counts as not finished
 constexpr double kDraftShare = 0.9;  ///< of the coverage that is asked for, that an operation's own folder is held to
@@ -46,29 +47,29 @@ FloorChannel around(WheelWork& work) {
   return out;
 }
 
-std::function<bool(const Vec3&)> finished_by(const WheelWork& work, const std::vector<Strip>& strips) {
+IsFinished finished_by(const WheelWork& work, const std::vector<Strip>& strips) {
   const auto finished =
       std::make_shared<const FinishedPlaces>(strips, work.tool->radial, kFinishedShare * work.job.tolerance_mm);
   return [finished](const Vec3& x) { return (*finished)(x); };
 }
 
-Path passes_along(WheelWork& work, const std::string& kind, const Names& faces, const PointOptions& options) {
+/// Everywhere, or only where operations before have left something.
+Path passes_along(WheelWork& work, const std::string& kind, const Names& faces, const IsFinished& is_finished) {
   const FloorChannel place = around(work);
   Path out;
   for (const std::string& name : faces) {
     const std::optional<Face> face = work.targets.face(name);
     if (!face) throw InputError(name + ": passes along a face need its surface, and a mesh has none");
+    PointOptions options = work.point_options({name});
+    options.is_finished = is_finished;
     for (Strip& strip : face_passes(*face, place, work.tool->radial, options, kind, name))
       out.strips.push_back(std::move(strip));
   }
   return out;
 }
 
-/// Only where operations before have left something.
 Path passes_on_rest(WheelWork& work, const std::string& kind, const Names& faces) {
-  PointOptions options = work.point_options();
-  options.is_finished = finished_by(work, work.finish.strips);
-  return passes_along(work, kind, faces, options);
+  return passes_along(work, kind, faces, finished_by(work, work.finish.strips));
 }
 
 /// Along what is left of the hub a half pitch to either side of the sector's first blade, as copies do the rest of it; along all that is
@@ -83,15 +84,14 @@ Path passes_on_hub(WheelWork& work) {
         strip.poses = turned(strip.poses, axis, turns);
         strips.push_back(std::move(strip));
       }
-  PointOptions options = work.point_options();
-  options.is_finished = [finished = finished_by(work, strips), axis, middle, all = !work.equal(),
-                         pitch](const Vec3& x) {
+  const IsFinished is_finished = [finished = finished_by(work, strips), axis, middle, all = !work.equal(),
+                                  pitch](const Vec3& x) {
     return (!all && !is_within_pitch(x, axis, middle, pitch)) || finished(x);
   };
   // Of a mesh there is no hub that passes could follow.
   Names hub = work.roles.hub;
   std::erase_if(hub, [&](const std::string& name) { return !work.targets.face(name); });
-  return passes_along(work, "rest", hub, options);
+  return passes_along(work, "rest", hub, is_finished);
 }
 
 constexpr const char* kNoPass = "no pass has room";
@@ -142,7 +142,7 @@ std::optional<WheelOperation> fillet_operation(WheelWork& work) {
 WheelOperation edge_operation(WheelWork& work) {
   return on_faces(
       work, "50", "edge", [](const WheelBlade& blade) { return blade.edges; },
-      [&](const Names& faces) { return passes_along(work, "edge", faces, work.point_options()); });
+      [&](const Names& faces) { return passes_along(work, "edge", faces, {}); });
 }
 
 std::optional<WheelOperation> rest_operation(WheelWork& work) {

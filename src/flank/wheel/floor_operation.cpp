@@ -65,7 +65,7 @@ Path floor_path(WheelWork& work) {
   for (const WheelSector& sector : sectors)
     for (const SectorChannel& channel : sector.channels) {
       const FloorChannel place = floor_channel(work, channel);
-      PointOptions options = work.point_options();
+      PointOptions options = work.point_options(work.roles.hub);
       const auto finished = std::make_shared<const FinishedPlaces>(side_strips(work, channel), work.tool->radial,
                                                                    0.9 * work.job.tolerance_mm);
       options.is_finished = [finished](const Vec3& x) { return (*finished)(x); };

@@ -1,10 +1,13 @@
 #include "flank/wheel/guarded.h"
 
 #include <algorithm>
+#include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "flank/base/parallel.h"
+#include "flank/io/face_names.h"
 #include "flank/wheel/point/axis_rod.h"
 #include "flank/wheel/point/motion_guard.h"
 #include "flank/wheel/point/pass_strips.h"
@@ -98,9 +101,12 @@ Path guarded(WheelWork& work, const Path& path, const RadialFunction& radial, do
     free[n] = guard.is_free(from, to) && hold.is_free(from, to) ? 1 : 0;
   });
   Path out;
-  const PointOptions options = work.point_options();
+  std::map<std::string, PointOptions> options_of;
   std::size_t n = 0;
   for (const Strip& strip : path.strips) {
+    const auto [known, is_new] = options_of.try_emplace(strip.face);
+    if (is_new) known->second = work.point_options(face_list_items(strip.face));
+    const PointOptions& options = known->second;
     Strip run = strip;
     run.poses.assign(1, strip.poses.front());
     for (std::size_t k = 0; k + 1 < strip.poses.size(); ++k, ++n) {

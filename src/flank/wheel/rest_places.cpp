@@ -79,7 +79,7 @@ Around around(WheelWork& work, const std::string& face) {
     for (const WheelBlade& blade : work.roles.blades) counts = counts && !holds(blade.buried, one.id);
     if (counts) names.push_back(one.id);
   }
-  out.options = work.point_options();
+  out.options = work.point_options({face});
   out.channel.axis = work.roles.axis;
   out.channel.wheel = &work.wheel_triangles(), out.channel.reach_mm = work.reach_mm();
   out.pitch = work.sector.pitch_rad, out.copies = work.sector.copies;

@@ -109,7 +109,7 @@ Path rough_path(WheelWork& work, const RadialFunction& radial) {
   for (const SectorChannel& one : work.sector.channels) {
     const FloorChannel channel = floor_channel(work, one);
     const Section section(channel, top_of(work));
-    PointOptions options = work.point_options();
+    PointOptions options = work.point_options(work.roles.hub);
     options.enter_share = -keep / work.job.tolerance_mm;
     options.apart_mm = kApartShare * tip;
     options.is_air = [&section, tip](const Vec3& center) { return section.is_air(center, tip); };

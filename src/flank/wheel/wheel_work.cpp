@@ -163,12 +163,10 @@ Vec3 WheelWork::up() const {
   return ahead ? roles.axis.direction : Vec3(-roles.axis.direction);
 }
 
-PointOptions WheelWork::point_options() {
+PointOptions WheelWork::point_options(const Names& names) {
   constexpr double kWindowShare = 1.1;
-  Names flow = roles.hub;
-  for (const WheelBlade& blade : sector.blades) append(flow, blade.flow());
   double size = 0.0;
-  for (const Target* target : targets.of(flow)) size = std::max(size, target->diagonal());
+  for (const Target* target : targets.of(names)) size = std::max(size, target->diagonal());
   PointOptions options;
   options.tolerance_mm = job.tolerance_mm;
   options.turn_window_mm = kWindowShare * turn_window(size);

@@ -77,7 +77,8 @@ struct WheelWork {
   [[nodiscard]] Vec3 up() const;
   /// What passes of any operation are planned with: tolerance, and turns within the length in which the judge looks for them (and a little
   /// more), and the directions that a machine holds.
-  [[nodiscard]] PointOptions point_options();
+  /// Of passes on some faces: the largest of them says how sharply they may turn.
+  [[nodiscard]] PointOptions point_options(const std::vector<std::string>& names);
   /// How often `finish` is turned.
   [[nodiscard]] int copies() const { return equal() ? sector.copies : 1; }
 };

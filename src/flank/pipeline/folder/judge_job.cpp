@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numbers>
 
 #include "flank/base/stopping.h"
 #include "flank/error.h"
+#include "flank/io/face_names.h"
 #include "flank/limit/least_left.h"
 #include "flank/path/turning.h"
 #include "flank/pipeline/folder/find_buried.h"
@@ -139,13 +141,31 @@ std::vector<UnjudgedFace> unread_faces(const Setup& setup) {
   return all;
 }
 
-/// How sharply the path turns, beside the largest of its targets.
+/// The largest of the targets that a strip says it machines; of all of them where it names none.
+double size_beside(const Strip& strip, const std::vector<verify::JudgedFace>& faces) {
+  double named = 0.0, any = 0.0;
+  const std::vector<std::string> items = face_list_items(strip.face);
+  for (const verify::JudgedFace& face : faces) {
+    if (!face.target) continue;
+    any = std::max(any, face.size_mm);
+    // A piece turns no more sharply than its face.
+    if (std::any_of(items.begin(), items.end(), [number = parse_face_name(face.face).number](const std::string& item) {
+          return parse_face_name(item).number == number;
+        }))
+      named = std::max(named, face.size_mm);
+  }
+  return named > 0.0 ? named : any;
+}
+
+/// How sharply the path turns, each strip beside what it machines.
 std::optional<TurnFigure> turn_of(const Tool& tool, const Path& path, const std::vector<verify::JudgedFace>& faces) {
-  double size = 0.0;
-  for (const verify::JudgedFace& face : faces)
-    if (face.target) size = std::max(size, face.size_mm);
-  if (!(size > 0.0) || path.pose_count() == 0) return {};
-  const Turning turn = sharpest_turn(path, tool.radial.axis_length(), turn_window(size));
+  if (path.pose_count() == 0 || !(size_beside({}, faces) > 0.0)) return {};
+  std::map<std::string, double> windows;
+  const Turning turn = sharpest_turn(path, tool.radial.axis_length(), [&](const Strip& strip) {
+    const auto [known, is_new] = windows.try_emplace(strip.face);
+    if (is_new) known->second = turn_window(size_beside(strip, faces));
+    return known->second;
+  });
   return TurnFigure{turn.angle_rad * 180.0 / std::numbers::pi, turn.strip,
                     path.strips[turn.strip].poses[turn.pose].tip};
 }
