@@ -8,6 +8,7 @@
 #include "flank/base/stopping.h"
 #include "flank/geom/face_box.h"
 #include "flank/geom/tessellate.h"
+#include "flank/setup/ball_places.h"
 #include "flank/verify/reach_border.h"
 
 namespace flank::internal {
@@ -32,31 +33,26 @@ int solid_of(const Part& part, int face) {
   return part.is_mesh() ? -1 : part.faces[static_cast<std::size_t>(face)].solid;
 }
 
-/// A face's triangles, counter-clockwise seen from outside of its solid; coarse where the face keeps away from `near`.
-TriangleMesh triangles_of(const Part& part, int face, const Box3& near, const ReachFineness& of) {
-  if (part.is_mesh()) return extract_mesh(part, {face});
-  const Face& value = part.faces[static_cast<std::size_t>(face)];
-  const Box3 box = box_of(value);
-  const bool meets = internal::near(box, near);
-  const double size = box.diagonal();
-  return tessellate(value,
-                    {.chord_mm = meets ? of.fine_on(size) : of.coarse_mm, .edge_mm = meets ? of.cell_on(size) : 1e300})
-      .mesh;
-}
-
-/// No ball that touches the samples, nor anything that it could enter, is outside of this.
-Box3 balls_of(const std::vector<FaceSamples>& samples, double radius) {
-  Box3 box;
-  for (const FaceSamples& face : samples) {
-    if (!face.target) continue;
-    for (const Vec3& p : face.points) box.add(p);
-    box.low.array() -= face.spacing_mm;
-    box.high.array() += face.spacing_mm;
+/// A face's triangles, counter-clockwise seen from outside of its solid: fine where the ball may come near, and coarse ones of all of it.
+ReachFace triangles_of(const Part& part, int face, bool checked, const BallPlaces& places, const ReachFineness& of) {
+  ReachFace out{.mesh = {}, .solid = solid_of(part, face), .checked = checked};
+  const auto cut = [&](double chord_mm, double edge_mm) {
+    return tessellate(part.faces[static_cast<std::size_t>(face)], {.chord_mm = chord_mm, .edge_mm = edge_mm}).mesh;
+  };
+  const TriangleMesh whole = part.is_mesh() ? extract_mesh(part, {face}) : cut(of.coarse_mm, 1e300);
+  if (!checked) {
+    out.mesh = whole;
+    return out;
   }
-  const Vec3 reach = Vec3::Constant(2.0 * radius);
-  box.low -= reach;
-  box.high += reach;
-  return box;
+  if (part.is_mesh()) {
+    out.mesh = near_part(whole, places);
+    if (out.mesh.triangles.size() < whole.triangles.size()) out.closing = whole;
+    return out;
+  }
+  out.closing = whole;
+  const double size = box_of(part.faces[static_cast<std::size_t>(face)]).diagonal();
+  if (places.meet(whole.box())) out.mesh = near_part(cut(of.fine_on(size), of.cell_on(size)), places);
+  return out;
 }
 
 /// The faces of the part that bound a solid of which one is judged, or are judged themselves.
@@ -71,18 +67,17 @@ std::vector<int> faces_around(const Part& part, const std::vector<int>& judged) 
   return around;
 }
 
-/// Triangles of the faces around; fine where the ball may come near them.
-std::vector<TriangleMesh> meshes_of(const Setup& setup, const std::vector<int>& around, const std::vector<int>& judged,
-                                    const Box3& near, double radius_mm) {
-  const ReachFineness checked = reach_fineness(setup.tolerance_mm, radius_mm);
-  ReachFineness closing = checked;
-  closing.fine_mm = closing.coarse_mm;
-  std::vector<TriangleMesh> meshes(around.size());
-  parallel_for(meshes.size(), [&](std::size_t k) {
+/// Triangles of the faces around.
+std::vector<ReachFace> reach_faces(const Setup& setup, const std::vector<int>& around, const std::vector<int>& judged,
+                                   const std::vector<FaceSamples>& samples, double radius_mm) {
+  const ReachFineness of = reach_fineness(setup.tolerance_mm, radius_mm);
+  const BallPlaces places(samples, radius_mm);
+  std::vector<ReachFace> faces(around.size());
+  parallel_for(faces.size(), [&](std::size_t k) {
     stop_here();
-    meshes[k] = triangles_of(setup.part, around[k], near, holds(judged, around[k]) ? checked : closing);
+    faces[k] = triangles_of(setup.part, around[k], holds(judged, around[k]), places, of);
   });
-  return meshes;
+  return faces;
 }
 
 template <class Value>
@@ -140,10 +135,7 @@ TargetReach::TargetReach(const Setup& setup, const ReachBall& ball, const std::v
   judged.insert(judged.end(), setup.checks.begin(), setup.checks.end());
   if (judged.size() < 2 && !ball.corners && setup.standing.empty()) return;
   const std::vector<int> around = faces_around(part, judged);
-  std::vector<TriangleMesh> meshes = meshes_of(setup, around, judged, balls_of(samples, radius), radius);
-  std::vector<ReachFace> all;
-  for (std::size_t k = 0; k < around.size(); ++k)
-    all.push_back({std::move(meshes[k]), solid_of(part, around[k]), holds(judged, around[k])});
+  std::vector<ReachFace> all = reach_faces(setup, around, judged, samples, radius);
   for (std::size_t k = 0; k < setup.standing.size(); ++k)
     all.push_back({setup.standing[k], part.solids + static_cast<int>(k), true});
   const ReachFaces faces(all);

@@ -149,6 +149,7 @@ struct ReadySolid {
   Box3 box;
   std::vector<Winding> faces;  ///< of each of its faces
   bool all_checked = true;     ///< none is there only to close it
+  Trees surface = {};          ///< the same faces
 
   /// More than half wound round, as Winding::inside says of a whole mesh.
   [[nodiscard]] bool holds(const Vec3& x) const {
@@ -225,14 +226,24 @@ class Surroundings {
     const double distance = capped_distance(near, box.center(), limit_ + away, limit_ - away);
     if (distance < limit_ - away) {
       std::fill(shares.begin(), shares.end(), 0.0);
-    } else if (distance >= limit_ + away && all_checked_) {
-      // No surface between the balls: they lie on one side of it.
+    } else if (distance >= limit_ + away && all_checked_ && on_one_side(box.center(), away)) {
       std::fill(shares.begin(), shares.end(), buried(box.center()) ? 0.0 : 1.0);
     } else {
       const std::size_t half = balls.size() / 2;
       measure(balls.first(half), shares.first(half), near);
       measure(balls.subspan(half), shares.subspan(half), near);
     }
+  }
+
+  /// No surface of a solid is between the centres, all of them no farther than this from the middle: one is inside where all are.
+  [[nodiscard]] bool on_one_side(const Vec3& middle, double away) const {
+    // Closing triangles are off their faces by less than the ball's radius.
+    const double clear = limit_ + away;
+    return std::all_of(solids_.begin(), solids_.end(), [&](const std::shared_ptr<const ReadySolid>& solid) {
+      return std::all_of(solid->surface.begin(), solid->surface.end(), [&](const auto& tree) {
+        return capped_distance(*tree, middle, clear, clear) >= clear;
+      });
+    });
   }
 
   /// Share of a cell that the ball can touch: 0 or 1 if the distance of its centre decides, else counted at places.
@@ -314,8 +325,11 @@ ReachFaces::ReachFaces(const std::vector<ReachFace>& faces) : faces_(faces.size(
     if (std::none_of(members.begin(), members.end(), checked)) continue;
     Solid solid{{number, {}, {}, std::all_of(members.begin(), members.end(), checked)}};
     for (const std::size_t k : members) {
-      if (!faces[k].mesh.triangles.empty()) solid.box.add(faces[k].mesh.box());
-      solid.faces.emplace_back(faces_[k]->tree);
+      const TriangleMesh& closing = faces[k].closing.triangles.empty() ? faces[k].mesh : faces[k].closing;
+      if (!closing.triangles.empty()) solid.box.add(closing.box());
+      solid.surface.push_back(&closing == &faces[k].mesh ? faces_[k]->tree
+                                                         : std::make_shared<const ObstacleTree>(closing));
+      solid.faces.emplace_back(solid.surface.back());
     }
     solids_.push_back(std::make_shared<const Solid>(std::move(solid)));
   }

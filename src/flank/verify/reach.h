@@ -16,6 +16,8 @@ struct ReachFace {
   TriangleMesh mesh;
   int solid = -1;       ///< -1: an open sheet, which has no inside
   bool checked = true;  ///< the ball must not enter it; else it only helps to close its solid
+  /// The whole face, coarser, where `mesh` is only what a ball may come near: that tells what is inside of its solid. Empty: `mesh` does.
+  TriangleMesh closing = {};
 };
 
 struct ReachOptions {
