@@ -254,9 +254,9 @@ struct SheetSide {
   std::string reason;           ///< "where the normal of the file points"
 };
 
-/// How sharply a motion turns: the largest angle between two of its directions within a stretch of 1 % of the diagonal of the target that
-/// the strip names (Strip::face; the largest of several, and of all where it names none), tip and upper end of the axis being one curve of
-/// six numbers.
+/// How sharply a motion turns: the largest angle between two of its directions within a stretch of 1 % of the diagonal of the face that
+/// the strip names (Strip::face; the largest of several, and of all targets where it names none), tip and upper end of the axis being one
+/// curve of six numbers.
 struct TurnFigure {
   double angle_deg = 0.0;
   std::size_t strip = 0;      ///< 0-based

@@ -118,6 +118,8 @@ TEST(JudgeJob, AStripTurnsBesideTheFaceThatItMachinesAndNotALargerOne) {
   EXPECT_LT(turn_of("F1"), 5.0);
   EXPECT_GT(turn_of("F2"), 45.0);
   EXPECT_EQ(turn_of("F1,F2"), turn_of("F2"));
+  setup.targets = {1}, setup.checks = {0};
+  EXPECT_LT(turn_of("F1"), 5.0) << "copies of a wheel's blade are no targets";
   EXPECT_EQ(turn_of(""), turn_of("F2")) << "a path that names no face is no better off";
   EXPECT_EQ(turn_of("F7"), turn_of("F2")) << "nor one that names another face";
 }

@@ -141,13 +141,12 @@ std::vector<UnjudgedFace> unread_faces(const Setup& setup) {
   return all;
 }
 
-/// The largest of the targets that a strip says it machines; of all of them where it names none.
+/// The largest of the faces that a strip says it machines, also where that is a copy of a target; of all targets where it names none.
 double size_beside(const Strip& strip, const std::vector<verify::JudgedFace>& faces) {
   double named = 0.0, any = 0.0;
   const std::vector<std::string> items = face_list_items(strip.face);
   for (const verify::JudgedFace& face : faces) {
-    if (!face.target) continue;
-    any = std::max(any, face.size_mm);
+    if (face.target) any = std::max(any, face.size_mm);
     // A piece turns no more sharply than its face.
     if (std::any_of(items.begin(), items.end(), [number = parse_face_name(face.face).number](const std::string& item) {
           return parse_face_name(item).number == number;
