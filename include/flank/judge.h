@@ -235,13 +235,13 @@ struct FinerReach {
   double reachable_share = 0.0;  ///< of the targets' area, by few samples
 };
 
-/// Where most is left of the targets, and what is proved of other tools there.
+/// The target of which most is left, and what is proved of other tools on it.
 struct LeastLeft {
-  std::string face;  ///< "F1"
-  Vec3 point = Vec3::Zero();
-  double left_mm = 0.0;
-  double radius_mm = 0.0;  ///< of tools that have no smaller radius,
-  double bound_mm = 0.0;   ///< every one leaves or cuts at least this much there: proved (docs/algorithms/bound.md)
+  std::string face;           ///< "F1"
+  Vec3 point = Vec3::Zero();  ///< of it: where that is proved
+  double left_mm = 0.0;       ///< the most material left of it
+  double radius_mm = 0.0;     ///< of tools that have no smaller radius,
+  double bound_mm = 0.0;      ///< every one leaves or cuts at least this much there: proved (docs/algorithms/bound.md)
 };
 
 /// On which side of targets that bound no material the tool belongs, and why (docs/algorithms/side.md).

@@ -132,6 +132,21 @@ TEST(EstimateCoverage, OfACylinderAlongAPlaneIsItsDistance) {
   }
 }
 
+/// Poses as far apart as a thin tool is thick: an estimate is off, unless each sample is refined.
+TEST(EstimateCoverage, OfAThinToolIsItsDistanceWhereAllSamplesAreRefined) {
+  constexpr double kGap = 1e-3;
+  constexpr int kFewPoses = 60;
+  const auto samples = standing_blade(0.0)->samples(2.3);
+  const RuledMotion motion =
+      upright_motion({.y = 0.5 + kGap, .z = -1.0, .x_first = -6.0, .x_last = 66.0, .length = 42.0});
+  const RadialFunction thin = cylinder(0.5, 42.0);
+  const CoverageEstimate rough = estimate_coverage(samples, {motion}, thin, kTolerance, kFewPoses),
+                         exact = estimate_coverage(samples, {motion}, thin, kTolerance, kFewPoses, Refined::kAll);
+  EXPECT_NEAR(exact.undercut_mm, kGap, 1e-9);
+  EXPECT_NEAR(exact.rms_mm, kGap, 1e-9);
+  EXPECT_GT(std::abs(rough.undercut_mm - kGap), 1e-3);
+}
+
 TEST(EstimateCoverage, IsTheShareOfTheAreaThatTheMotionPasses) {
   const auto samples = standing_blade(0.0)->samples(1.0);
   const RuledMotion half = upright_motion({.y = 5.0, .z = -1.0, .x_first = -6.0, .x_last = 30.0, .length = 42.0});

@@ -20,6 +20,15 @@ TEST(Lengthen, TheProfileStays) {
   EXPECT_NEAR(after.at(45.0).d1, 0.0, 2e-2);
 }
 
+TEST(Lengthen, TheProfileStaysWhereTheTipGrowsToo) {
+  constexpr double kClose = 5e-3;  // the slope is steeper at this end, and ends within 3 mm
+  const RadialFunction before = bulged(), after = lengthened(before, 5.0, 3.0);
+  EXPECT_EQ(after.axis_length(), 48.0);
+  for (int j = 0; j <= 100; ++j) EXPECT_NEAR(after.at(3.0 + 0.4 * j).r, before.at(0.4 * j).r, kClose) << j;
+  EXPECT_NEAR(after.at(0.0).r, before.at(0.0).r - 1.5 * before.at(0.0).d1, kClose);
+  EXPECT_NEAR(after.at(0.0).d1, 0.0, 2e-2);
+}
+
 TEST(Lengthen, StopsAtTheFirstLengthThatIsClear) {
   FlankFitResult fit;
   fit.tool = bulged();

@@ -126,5 +126,17 @@ TEST(BallBound, OfAStoppedRunIsNotComplete) {
   EXPECT_FALSE(ball_bound(corner.floor, corner.scene, {.radius_mm = 2.0, .spacing_mm = 2.0}, progress).complete);
 }
 
+/// What is stopped after its first net has no half of a net, and is not complete either.
+TEST(BallBound, StoppedBetweenTwoNetsIsNotComplete) {
+  const Corner corner;
+  bool first_is_done = false;
+  Progress progress;
+  progress.report = [&](std::string_view, double done) { first_is_done = done >= 0.125 - 1e-9; };
+  progress.cancelled = [&] { return first_is_done; };
+  const BallBound bound = ball_bound(corner.floor, corner.scene, {.radius_mm = 2.0, .spacing_mm = 2.0}, progress);
+  EXPECT_GT(bound.bound_mm, 0.0);
+  EXPECT_FALSE(bound.complete);
+}
+
 }  // namespace
 }  // namespace flank::internal

@@ -1,4 +1,4 @@
-// Beside what a path leaves at its worst place: what every tool leaves there.
+// Beside what a path leaves: what every tool that is thick enough leaves on the same face.
 #include "flank/limit/least_left.h"
 
 #include <gtest/gtest.h>
@@ -11,6 +11,7 @@
 namespace flank::internal {
 namespace {
 
+constexpr double kRadius = 2.0;                                          // no tool has a smaller one
 const double kCorner = (std::sqrt(2.0) - 1.0) / (std::sqrt(2.0) + 1.0);  // of a ball's radius, beside a wall
 
 /// A floor with a wall on it at x = 0; 1 mm is left on the floor at a place beside the wall.
@@ -42,7 +43,6 @@ class BesideAWall : public ::testing::Test {
     setup_.targets = {0};
     setup_.checks = {1, 2, 3, 4, 5, 6};
     report_.tolerance_mm = 0.05;
-    report_.reach_radius_mm = 2.0;
     leaves(1.0, Vec3(0, 5, 0));
   }
   void leaves(double mm, const Vec3& at) {
@@ -56,31 +56,46 @@ class BesideAWall : public ::testing::Test {
 };
 
 TEST_F(BesideAWall, ABallOfTheRadiusLeavesAsMuch) {
-  const auto left = least_left(setup_, report_);
+  const auto left = least_left(setup_, report_, kRadius);
   ASSERT_TRUE(left);
   EXPECT_EQ(left->face, "F1");
   EXPECT_EQ(left->left_mm, 1.0);
-  EXPECT_EQ(left->radius_mm, 2.0);
-  EXPECT_LE(left->bound_mm, 2.0 * kCorner);
-  EXPECT_GE(left->bound_mm, 0.85 * 2.0 * kCorner);
+  EXPECT_EQ(left->radius_mm, kRadius);
+  EXPECT_LE(left->bound_mm, kRadius * kCorner);
+  EXPECT_GE(left->bound_mm, 0.85 * kRadius * kCorner);
+}
+
+TEST_F(BesideAWall, WhatIsProvedElsewhereOnTheFaceCounts) {
+  leaves(1.0, Vec3(10, 5, 0));
+  const auto left = least_left(setup_, report_, kRadius);
+  ASSERT_TRUE(left);
+  EXPECT_EQ(left->left_mm, 1.0);
+  EXPECT_LT(left->point.x(), 0.1) << "beside the wall";
+  EXPECT_LE(left->bound_mm, kRadius * kCorner);
+  EXPECT_GE(left->bound_mm, 0.85 * kRadius * kCorner);
 }
 
 TEST_F(BesideAWall, NothingIsProvedWhereABallTouchesFreely) {
-  leaves(1.0, Vec3(10, 5, 0));
-  EXPECT_FALSE(least_left(setup_, report_));
   setup_.checks.clear();
-  leaves(1.0, Vec3(0, 5, 0));
-  EXPECT_FALSE(least_left(setup_, report_)) << "the wall may be entered";
+  EXPECT_FALSE(least_left(setup_, report_, kRadius)) << "the wall may be entered";
+}
+
+/// A thicker tool leaves more of the same corner.
+TEST_F(BesideAWall, IsAboutToolsOfTheRadiusThatIsGiven) {
+  const auto thin = least_left(setup_, report_, kRadius), thick = least_left(setup_, report_, 2.0 * kRadius);
+  ASSERT_TRUE(thin && thick);
+  EXPECT_EQ(thick->radius_mm, 2.0 * kRadius);
+  EXPECT_GT(thick->bound_mm, 1.5 * thin->bound_mm);
 }
 
 TEST_F(BesideAWall, IsNotAskedOfWhatIsFinished) {
   leaves(0.05, Vec3(0, 5, 0));
-  EXPECT_FALSE(least_left(setup_, report_));
+  EXPECT_FALSE(least_left(setup_, report_, kRadius));
   leaves(INFINITY, Vec3(0, 5, 0));
-  EXPECT_FALSE(least_left(setup_, report_)) << "nobody knows where";
+  EXPECT_FALSE(least_left(setup_, report_, kRadius)) << "nobody knows where";
   leaves(1.0, Vec3(0, 5, 0));
   setup_.allowance_mm = 0.2;
-  EXPECT_FALSE(least_left(setup_, report_));
+  EXPECT_FALSE(least_left(setup_, report_, kRadius));
 }
 
 }  // namespace

@@ -96,6 +96,15 @@ TEST_F(RedesignOf, TheImpellersBladeLosesNoneOfItsSolids) {
   EXPECT_GT(beside.coverage, 0.999);
 }
 
+/// The tool that a fit finds ends before this blade's border with its tip: that is lengthened until it does not.
+TEST_F(RedesignOf, ATipThatEndsAtTheBorderIsLengthened) {
+  if (kSanitized) GTEST_SKIP() << "a whole fit, a redesign and a fit of what came out";
+  FLANK_REAL_PART(file, "zoo/hecc_main_blade.step");
+  const Redesign redesign = made(job_of(file, "F3"));
+  const double size = redesign.result.diagonal_mm;
+  expect_closed_loop(redesign, fitted_again(redesign, 5e-5 * size), size);
+}
+
 TEST_F(RedesignOf, AMeshAndFacesThatAreJoinedAreRefused) {
   const std::string mesh = (root_ / "plane.stl").string();
   std::ofstream(mesh)

@@ -248,6 +248,12 @@ TEST(Acceptance, WhatIsLeftOfTheWholeFaceIsACautionAndOnDemandAReason) {
   EXPECT_NE(cautions(accept(whole_tool(), r, asking(0.95)), Figure::kWholeCoverage)[0].find(
                 "; at (1.000, 2.000, 3.000) every tool with no radius below 8 mm leaves or cuts 0.9 mm or more"),
             std::string::npos);
+  // Rounded the way that keeps it true.
+  r.least_left->radius_mm = 4.2925;
+  r.least_left->bound_mm = 0.618;
+  EXPECT_NE(cautions(accept(whole_tool(), r, asking(0.95)), Figure::kWholeCoverage)[0].find(
+                "every tool with no radius below 4.3 mm leaves or cuts 0.61 mm or more"),
+            std::string::npos);
   r.least_left->bound_mm = 0.5 * r.tolerance_mm;
   EXPECT_EQ(cautions(accept(whole_tool(), r, asking(0.95)), Figure::kWholeCoverage)[0],
             cautions(open, Figure::kWholeCoverage)[0])

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "flank/base/proved_digits.h"
 #include "flank/base/stopping.h"
 #include "flank/bound/bound_setup.h"
 #include "flank/error.h"
@@ -98,13 +99,13 @@ std::string free_bound_text(const FreeBound& result) {
   std::string text = "What no tool does better, in any number of passes\n";
   for (const FreeBoundTarget& target : result.targets) {
     const BallBound& bound = target.bound;
-    text += fmt::format("  {}: radii of at least {:.4g} mm, {} samples on {:.4g} mm2\n", target.faces, target.radius_mm,
-                        bound.sites, bound.area_mm2);
+    text += fmt::format("  {}: radii of at least {:.4g} mm, {} samples on {:.4g} mm2\n", target.faces,
+                        digits_above(target.radius_mm, 4), bound.sites, bound.area_mm2);
     if (bound.bound_mm > 0.0)
       text += fmt::format(
           "    every such tool leaves or cuts at least {:.4g} mm near ({:.4g}, {:.4g}, {:.4g}); one ball there: {:.4g} "
           "mm\n",
-          bound.bound_mm, bound.point.x(), bound.point.y(), bound.point.z(), bound.found_mm);
+          digits_below(bound.bound_mm, 4), bound.point.x(), bound.point.y(), bound.point.z(), bound.found_mm);
     else
       text += "    nothing is proved: at every sample a ball of that radius touches freely\n";
     if (bound.out_of_reach_mm2 > 0.0)

@@ -70,7 +70,8 @@ namespace {
 /// f at the samples. The estimate is good enough to rank coverage, which is an average. Overcut is a maximum: one
 /// sample that is off would decide it, so samples that seem cut are refined.
 std::vector<double> estimate_distances(const std::vector<SurfaceSample>& samples,
-                                       const std::vector<RuledMotion>& motions, const RadialFunction& tool, int poses) {
+                                       const std::vector<RuledMotion>& motions, const RadialFunction& tool, int poses,
+                                       Refined refined) {
   constexpr std::size_t kGrain = 256;  // samples per task: the estimate takes microseconds each
   const SweptEstimate swept(motions, tool, poses);
   std::vector<double> distances(samples.size());
@@ -80,7 +81,8 @@ std::vector<double> estimate_distances(const std::vector<SurfaceSample>& samples
     for (std::size_t k = begin; k < end; ++k) {
       near = swept.nearest(samples[k].point, near);
       distances[k] = near.f;
-      if (near.f < 0.0 && near.motion >= 0) distances[k] = swept.refine(samples[k].point, near).f;
+      if ((near.f < 0.0 || refined == Refined::kAll) && near.motion >= 0)
+        distances[k] = swept.refine(samples[k].point, near).f;
     }
   });
   return distances;
@@ -198,7 +200,7 @@ double between_places(const Pose& pose, const ObstacleField& obstacles, const Ax
 
 std::vector<Vec3> cut_deeper_than(double depth_mm, const std::vector<SurfaceSample>& samples,
                                   const std::vector<RuledMotion>& motions, const RadialFunction& tool, int poses) {
-  const std::vector<double> distances = estimate_distances(samples, motions, tool, poses);
+  const std::vector<double> distances = estimate_distances(samples, motions, tool, poses, Refined::kCuts);
   std::vector<Vec3> deep;
   for (std::size_t k = 0; k < samples.size(); ++k)
     if (distances[k] < -depth_mm) deep.push_back(samples[k].point);
@@ -206,9 +208,9 @@ std::vector<Vec3> cut_deeper_than(double depth_mm, const std::vector<SurfaceSamp
 }
 
 CoverageEstimate estimate_coverage(const std::vector<SurfaceSample>& samples, const std::vector<RuledMotion>& motions,
-                                   const RadialFunction& tool, double tolerance_mm, int poses) {
+                                   const RadialFunction& tool, double tolerance_mm, int poses, Refined refined) {
   constexpr double kNearTolerances = 4.0;  // by the field's name
-  const std::vector<double> distances = estimate_distances(samples, motions, tool, poses);
+  const std::vector<double> distances = estimate_distances(samples, motions, tool, poses, refined);
   CoverageEstimate estimate;
   double area = 0.0, whole = 0.0, near_area = 0.0, squares = 0.0;
   for (std::size_t k = 0; k < samples.size(); ++k) {

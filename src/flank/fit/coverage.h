@@ -7,12 +7,15 @@
 
 namespace flank::internal {
 
+/// Which samples of an estimate are refined exactly: those with f < 0, the others being of third order in the spacing of the poses, which a tool
+/// that is thin beside the way between two poses makes large; or all.
+enum class Refined { kCuts, kAll };
+
 /// The estimate for a set of motions over one target's samples, `poses` axis positions per motion tabulated. Samples
-/// with area 0 count for overcut and undercut alone, those with the negative of theirs for the share of the whole, too. A sample with f < 0 is refined exactly, others to third order in
-/// the spacing of the poses.
+/// with area 0 count for overcut and undercut alone, those with the negative of theirs for the share of the whole, too.
 [[nodiscard]] CoverageEstimate estimate_coverage(const std::vector<SurfaceSample>& samples,
                                                  const std::vector<RuledMotion>& motions, const RadialFunction& tool,
-                                                 double tolerance_mm, int poses);
+                                                 double tolerance_mm, int poses, Refined refined = Refined::kCuts);
 
 /// Those of the samples that are cut deeper than this, mm, by the estimate's own figures.
 [[nodiscard]] std::vector<Vec3> cut_deeper_than(double depth_mm, const std::vector<SurfaceSample>& samples,

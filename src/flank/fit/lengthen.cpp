@@ -8,17 +8,18 @@
 
 namespace flank::internal {
 
-RadialFunction lengthened(const RadialFunction& radial, double more_mm) {
+RadialFunction lengthened(const RadialFunction& radial, double more_mm, double at_tip_mm) {
   constexpr int kSamplesPerCoefficient = 12;
-  const RadialJet end = radial.at(radial.axis_length());
-  const double length = radial.axis_length(), longer = length + more_mm;
+  const double length = radial.axis_length(), longer = at_tip_mm + length + more_mm;
+  const RadialJet tip = radial.at(0.0), end = radial.at(length);
   // Twice the coefficients: the old knots are not among the new ones.
   const int count = 2 * static_cast<int>(std::ceil(radial.parameter_count() * longer / length));
+  const auto faded = [](double past, double all) { return past > 0.0 ? past - 0.5 * past * past / all : 0.0; };
   std::vector<Vec2> samples;
   for (int j = 0; j <= kSamplesPerCoefficient * count; ++j) {
-    const double s = longer * j / (kSamplesPerCoefficient * count);
-    const double past = std::max(0.0, s - length);
-    samples.emplace_back(s, radial.at(std::min(s, length)).r + end.d1 * (past - 0.5 * past * past / more_mm));
+    const double at = longer * j / (kSamplesPerCoefficient * count), s = at - at_tip_mm;
+    const double kept = radial.at(std::clamp(s, 0.0, length)).r;
+    samples.emplace_back(at, kept + end.d1 * faded(s - length, more_mm) - tip.d1 * faded(-s, at_tip_mm));
   }
   return RadialFunction::spline_through(longer, samples, count);
 }

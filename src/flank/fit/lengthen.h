@@ -9,9 +9,9 @@
 
 namespace flank::internal {
 
-/// The radial function on an axis longer by `more_mm`: as it was, then on with its slope, which fades to nothing. Splines
-/// only.
-[[nodiscard]] RadialFunction lengthened(const RadialFunction& radial, double more_mm);
+/// The radial function on an axis longer by `more_mm` at the upper end, and by `at_tip_mm` at the tip: as it was, then on with its slope, which
+/// fades to nothing. What was at s is at s + at_tip_mm then. Splines only.
+[[nodiscard]] RadialFunction lengthened(const RadialFunction& radial, double more_mm, double at_tip_mm = 0.0);
 
 /// Lengthens tool and motions by 1, 2, 4, 8 times `step_mm`, until the tool is legitimate and `clear` says of the result
 /// that shank and holder keep their clearances; returns the millimetres that were added. 0 where it is clear as it is,

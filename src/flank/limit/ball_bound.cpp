@@ -34,9 +34,13 @@ class Nets {
       result_.area_mm2 += site.area_mm2;
       if (site.error.bound_mm > options_.tolerance_mm) result_.out_of_reach_mm2 += site.area_mm2;
     }
-    for (int level = 1; level < options_.levels && !progress_.stop(); ++level) {
+    for (int level = 1; level < options_.levels; ++level) {
       // What is due to the distance of two sites is all that a finer net can add.
       if (spacing < options_.gap * best_mm_) break;
+      if (progress_.stop()) {
+        result_.complete = false;
+        break;
+      }
       spacing *= 0.5;
       sites = finer(std::move(sites), spacing);
       if (sites.empty()) break;
@@ -94,7 +98,7 @@ class Nets {
     std::size_t done = 0;
     while (done < sites.size() && !progress_.stop()) {
       const std::size_t count = std::min(kBlock, sites.size() - done);
-      const BallSearch search = {.gap = kCoarseGap, .enough_mm = enough_mm};
+      const BallSearch search = {.gap = kCoarseGap, .enough_mm = enough_mm, .cubes = options_.cubes};
       parallel_for(count, [&](std::size_t k) {
         Site& site = sites[done + k];
         if (site.error.cubes > 0) return;
@@ -124,7 +128,7 @@ class Nets {
       LeastError close;
       if (site.error.found_mm > std::max(result_.bound_mm, best_mm_))
         close = least_error(site.point, site.normal, scene_, options_.radius_mm,
-                            {.gap = options_.gap, .enough_mm = result_.bound_mm});
+                            {.gap = options_.gap, .enough_mm = result_.bound_mm, .cubes = options_.cubes});
       const LeastError& error = close.bound_mm > site.error.bound_mm ? close : site.error;
       if (error.bound_mm <= result_.bound_mm) continue;
       result_.bound_mm = error.bound_mm;

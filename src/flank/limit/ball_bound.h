@@ -15,6 +15,7 @@ struct BallBoundOptions {
   double spacing_mm = 1.0;     ///< of the first net of sites; the next ones are twice as fine
   double gap = 0.05;           ///< a finer net that can only raise the bound by this share is not laid
   int levels = 8;              ///< nets, at most
+  int cubes = 20000;           ///< of centres, for each site, at most (BallSearch)
 };
 
 struct BallBound {

@@ -1,4 +1,4 @@
-/// Beside what a path leaves: what every tool of such radii leaves at the same place, at least (docs/algorithms/bound.md).
+/// Beside what a path leaves: what every tool that is thick enough leaves on the same face, at least (docs/algorithms/bound.md).
 #pragma once
 
 #include <optional>
@@ -8,8 +8,9 @@
 
 namespace flank::internal {
 
-/// At the place of the targets where most is left, beyond the tolerance; for tools of which no radius is smaller than the ball of
-/// what is accessible (VerifyReport::reach_radius_mm). None where nothing is proved, of a mesh, or with an allowance.
-[[nodiscard]] std::optional<LeastLeft> least_left(const Setup& setup, const VerifyReport& report);
+/// On the target of which most is left, beyond the tolerance, for tools of which no radius is smaller than `radius_mm`: the most that is
+/// proved at some places of a coarse net, and at the place where most is left. It takes about a second. None where nothing is proved, of a
+/// mesh, or with an allowance.
+[[nodiscard]] std::optional<LeastLeft> least_left(const Setup& setup, const VerifyReport& report, double radius_mm);
 
 }  // namespace flank::internal

@@ -117,7 +117,13 @@ std::optional<MillableSurface> millable_surface(const RuledMotion& motion, const
     }
     constexpr double kEnd = 1e-6;
     const auto at_end = [](double share) { return share < kEnd || share > 1.0 - kEnd; };
-    for (const Touch& at : touched) out.at_ends += at_end(at.t) || at_end(at.s / radial.axis_length()) ? 1 : 0;
+    for (const Touch& at : touched) {
+      const double along = at.s / radial.axis_length();
+      if (at_end(at.t))
+        ++out.at_ends.of_motion;
+      else if (at_end(along))
+        ++(along < 0.5 ? out.at_ends.at_tip : out.at_ends.at_top);
+    }
     why.clear();
     out.largest_c = c;
     out.used_from_s = s.low, out.used_to_s = s.high, out.used_from_t = t.low, out.used_to_t = t.high;

@@ -13,14 +13,24 @@
 
 namespace flank::internal {
 
+/// Places of a face that an end of the motion or of the tool is nearest to: there a pose leaves what it is, and no envelope.
+struct PlacesAtEnds {
+  int of_motion = 0, at_tip = 0, at_top = 0;  ///< first or last pose; ends of the axis, apart from these
+  [[nodiscard]] int count() const { return of_motion + at_tip + at_top; }
+  void add(const PlacesAtEnds& more) {
+    of_motion += more.of_motion;
+    at_tip += more.at_tip;
+    at_top += more.at_top;
+  }
+};
+
 struct MillableSurface {
   BSplineSurface surface;
   bool reversed = false;           ///< as Face::reversed, so that its normal points to the tool
   std::unique_ptr<Target> target;  ///< of the whole surface, from the tool's side
   double deviation_mm = 0.0;       ///< of the spline from the exact envelope where the face is, at most, by samples
   double largest_c = 0.0;          ///< regularity where the face is (envelope.h), < 1 needed
-  int at_ends =
-      0;  ///< places of the face that the first or the last pose is nearest to: it cuts there what the motion leaves
+  PlacesAtEnds at_ends;
   double used_from_s = 0.0, used_to_s = 0.0;  ///< stretch of the axis that the face needs, mm; the tool ends at 0 and L
   double used_from_t = 0.0, used_to_t = 1.0;  ///< and of the motion
   /// Parameters of the point nearest to p; none: p lies beyond the surface.

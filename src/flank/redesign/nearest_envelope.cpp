@@ -205,22 +205,24 @@ NearestEnvelope nearest_envelope(const NearestProblem& problem, const Progress& 
   return best;
 }
 
-FitDraft evenly_run(const FitDraft& draft, double share) {
+FitDraft evenly_run(const FitDraft& draft, const Longer& longer) {
   constexpr int kSteps = 2000, kPosesPerPoint = 8;
   FitDraft even = draft;
-  const double more = draft.free_tool ? share * draft.tool.axis_length() : 0.0;
-  if (more > 0.0) even.tool = lengthened(draft.tool, more);
+  const double axis = draft.free_tool ? draft.tool.axis_length() : 0.0, above = longer.top * axis,
+               below = longer.tip * axis;
+  if (above + below > 0.0) even.tool = lengthened(draft.tool, above, below);
   for (std::size_t k = 0; k < even.motions.size(); ++k) {
     const RuledMotion old = draft.motions[k];
     const auto [from, to] = used_range(draft, k);
     // Ways of the middle of the axis up to every step; past the ends it goes on straight.
-    const double first = from - kOverrun - share, last = to + kOverrun + share;
+    const double first = from - kOverrun - longer.motion, last = to + kOverrun + longer.motion;
     std::vector<Pose> fine;
     std::vector<double> way{0.0};
     for (int i = 0; i <= kSteps; ++i) {
       const double t = first + (last - first) * i / kSteps, inside = std::clamp(t, 0.0, 1.0);
       const AxisJet jet = old.jet(inside);
-      fine.push_back({jet.tip + (t - inside) * jet.tip_d1, (jet.u + (t - inside) * jet.u_d1).normalized()});
+      const Vec3 u = (jet.u + (t - inside) * jet.u_d1).normalized();
+      fine.push_back({jet.tip + (t - inside) * jet.tip_d1 - below * u, u});
       if (i > 0)
         way.push_back(
             way.back() +
@@ -237,7 +239,7 @@ FitDraft evenly_run(const FitDraft& draft, double share) {
       poses.push_back({(1.0 - part) * fine[at].tip + part * fine[at + 1].tip,
                        ((1.0 - part) * fine[at].axis + part * fine[at + 1].axis).normalized()});
     }
-    even.motions[k] = fit_motion(poses, times, old.axis_length + more, kFewPoints);
+    even.motions[k] = fit_motion(poses, times, old.axis_length + above + below, kFewPoints);
   }
   return even;
 }

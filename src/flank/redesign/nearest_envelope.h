@@ -33,9 +33,15 @@ struct NearestEnvelope {
 /// deviation weights follow it from round to round (Lawson). Deterministic for any number of threads.
 [[nodiscard]] NearestEnvelope nearest_envelope(const NearestProblem& problem, const Progress& progress);
 
-/// The draft with motions that run evenly from a little before their faces to a little behind them, by `share` of the way more at both ends,
-/// where they go on straight, and with a free tool that is longer at its upper end by this share. What a fit lets a motion do where it
-/// touches nothing, as hook or rest, is cut off.
-[[nodiscard]] FitDraft evenly_run(const FitDraft& draft, double share);
+/// How much longer a motion and a free tool become, as shares of the way and of the axis.
+struct Longer {
+  double motion = 0.0;  ///< at both ends, where it goes on straight
+  double top = 0.0;     ///< the tool at its upper end,
+  double tip = 0.0;     ///< and at its tip
+};
+
+/// The draft with motions that run evenly from a little before their faces to a little behind them, longer by these shares. What a fit lets a
+/// motion do where it touches nothing, as hook or rest, is cut off.
+[[nodiscard]] FitDraft evenly_run(const FitDraft& draft, const Longer& longer);
 
 }  // namespace flank::internal

@@ -154,7 +154,7 @@ NearestProblem problem_of(const RedesignJob& job, const Setup& setup, const Sear
   problem.start.motions = fit.motions;
   problem.start.tool = fit.tool;
   problem.start.free_tool = search.fit.tool.free();
-  problem.start = evenly_run(problem.start, kExtensionShare);
+  problem.start = evenly_run(problem.start, {.motion = kExtensionShare, .top = kExtensionShare});
   problem.bounds = search.fit.options.bounds;
   problem.reach = reach_of(search.fit.options);
   problem.tolerance_mm = setup.tolerance_mm;
@@ -190,30 +190,30 @@ std::vector<ChangedFace> surfaces_of(const NearestEnvelope& nearest, const Setup
   return changed;
 }
 
-int places_at_ends(const std::vector<ChangedFace>& changed) {
-  int count = 0;
-  for (const ChangedFace& face : changed) count += face.surface.at_ends;
-  return count;
+PlacesAtEnds places_at_ends(const std::vector<ChangedFace>& changed) {
+  PlacesAtEnds all;
+  for (const ChangedFace& face : changed) all.add(face.surface.at_ends);
+  return all;
 }
 
 /// An envelope and the surfaces that it leaves.
 struct Reached {
   NearestEnvelope nearest;
   std::vector<ChangedFace> changed;  ///< empty: a face is not reached
-  int ends = 0;                      ///< places that an end of a motion or of the tool leaves, and no envelope
+  PlacesAtEnds ends;
 };
 
 /// The motions as they were found, or run on at both ends where fewer places are left to these then.
 Reached reached_by(const NearestEnvelope& found, const Setup& setup, const Search& search, std::string& why) {
   Reached best;
   for (const double share : {0.0, kRunOnShare, 2.0 * kRunOnShare}) {
-    Reached next{found, {}, 0};
+    Reached next{found, {}, {}};
     if (share > 0.0) next.nearest.draft = run_on(found.draft, share);
     next.changed = surfaces_of(next.nearest, setup, search, why);
     next.ends = places_at_ends(next.changed);
-    const bool better = best.changed.empty() || next.ends < best.ends;
+    const bool better = best.changed.empty() || next.ends.count() < best.ends.count();
     if (better && !next.changed.empty()) best = std::move(next);
-    if (!best.changed.empty() && best.ends == 0) break;
+    if (!best.changed.empty() && best.ends.count() == 0) break;
   }
   return best;
 }
@@ -223,12 +223,15 @@ Reached reached_by(const NearestEnvelope& found, const Setup& setup, const Searc
 Reached reaching(NearestProblem problem, const Setup& setup, const Search& search, const Progress& progress) {
   std::string why;
   Reached best;
-  for (int round = 0; round <= kExtensions && (best.changed.empty() || best.ends > 0); ++round) {
+  for (int round = 0; round <= kExtensions && (best.changed.empty() || best.ends.count() > 0); ++round) {
     const NearestEnvelope nearest = nearest_envelope(problem, progress);
     stop_here();
     Reached next = reached_by(nearest, setup, search, why);
-    problem.start = evenly_run(nearest.draft, kExtensionShare);
-    if (!next.changed.empty() && (best.changed.empty() || next.ends < best.ends)) best = std::move(next);
+    // A tip is lengthened where it is at fault alone: beside a wall there is seldom room. After a step that was too short, twice as much.
+    const double tip = next.ends.at_tip > 0 ? std::ldexp(kExtensionShare, round) : 0.0;
+    problem.start = evenly_run(nearest.draft, {.motion = kExtensionShare, .top = kExtensionShare, .tip = tip});
+    const bool better = best.changed.empty() || next.ends.count() < best.ends.count();
+    if (!next.changed.empty() && better) best = std::move(next);
   }
   if (best.changed.empty()) throw InputError(why);
   return best;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "flank/base/proved_digits.h"
 #include "flank/results/cavity/stock_json.h"
 #include "flank/setup/machined_side.h"
 
@@ -128,13 +129,13 @@ std::string who_reaches(const VerifyReport& report) {
   return fmt::format("; a tool of radius {:.2g} mm would reach {:.1f} %", radius, 100.0 * share);
 }
 
-/// What is proved of the place where most is left: a tool that is no thinner does not finish it.
+/// What is proved of the face of which most is left: a tool that is no thinner does not finish it.
 std::string who_leaves(const VerifyReport& report) {
   if (!report.least_left || report.least_left->bound_mm < report.tolerance_mm) return "";
   const LeastLeft& left = *report.least_left;
   return fmt::format(
       "; at ({:.3f}, {:.3f}, {:.3f}) every tool with no radius below {:.3g} mm leaves or cuts {:.2g} mm or more",
-      left.point.x(), left.point.y(), left.point.z(), left.radius_mm, left.bound_mm);
+      left.point.x(), left.point.y(), left.point.z(), digits_above(left.radius_mm, 3), digits_below(left.bound_mm, 2));
 }
 
 /// The share of the whole face, whatever is reachable: a demand, or, where none was made, a caution if as much is left as of what is

@@ -234,7 +234,8 @@ VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const To
     report.finer_reach = finer_reach(setup, *reach, target_samples(setup, kReachSpacings * usual), wanted);
     // A ball in the middle of the tool reaches that much less than the same of the tool that is judged.
     report.finer_reach->radius_mm = std::max(0.0, report.finer_reach->radius_mm - setup.allowance_mm);
-    report.least_left = least_left(setup, report);
+    // A tool that is nowhere as thin as the ball of the request would leave more: what is proved is about tools like it.
+    report.least_left = least_left(setup, report, std::max(radius, smallest_radius(tool)));
   }
   if (request.most_turn_deg > 0.0) report.turn = turn_of(tool, path, judged);
   report.buried = std::move(buried);
