@@ -240,9 +240,8 @@ class Surroundings {
     // Closing triangles are off their faces by less than the ball's radius.
     const double clear = limit_ + away;
     return std::all_of(solids_.begin(), solids_.end(), [&](const std::shared_ptr<const ReadySolid>& solid) {
-      return std::all_of(solid->surface.begin(), solid->surface.end(), [&](const auto& tree) {
-        return capped_distance(*tree, middle, clear, clear) >= clear;
-      });
+      return std::all_of(solid->surface.begin(), solid->surface.end(),
+                         [&](const auto& tree) { return capped_distance(*tree, middle, clear, clear) >= clear; });
     });
   }
 

@@ -175,6 +175,17 @@ void move_out(double allowance_mm, FaceSamples& face) {
   for (std::size_t k = 0; k < face.points.size(); ++k) face.points[k] += allowance_mm * face.normals[k];
 }
 
+/// Which tool would reach what is left of the whole, and what is proved of tools like this one. Seldom asked: the samples are made again,
+/// not kept beside the judge's own.
+void say_what_is_left(const Setup& setup, const TargetReach& reach, double spacing, const Tool& tool, double wanted,
+                      VerifyReport& report) {
+  report.finer_reach = finer_reach(setup, reach, target_samples(setup, spacing), wanted);
+  // A ball in the middle of the tool reaches that much less than the same of the tool that is judged.
+  report.finer_reach->radius_mm = std::max(0.0, report.finer_reach->radius_mm - setup.allowance_mm);
+  // A tool that is nowhere as thin as the ball of the request would leave more: what is proved is about tools like it.
+  report.least_left = least_left(setup, report, std::max(report.reach_radius_mm, smallest_radius(tool)));
+}
+
 }  // namespace
 
 Tool judged_tool(const Setup& setup, const Tool& tool) {
@@ -228,15 +239,8 @@ VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const To
       verify::judge_faces(thick, path, judged, options, {request.least_coverage, request.least_whole.value_or(0.0)});
   report.reach_radius_mm = radius;
   report.allowance_mm = setup.allowance_mm;
-  // What is left of the whole: which tool would reach it? Seldom asked: the samples are made again, not kept beside the judge's own.
   const double wanted = request.least_whole.value_or(request.least_coverage);
-  if (reach && report.coverage < wanted) {
-    report.finer_reach = finer_reach(setup, *reach, target_samples(setup, kReachSpacings * usual), wanted);
-    // A ball in the middle of the tool reaches that much less than the same of the tool that is judged.
-    report.finer_reach->radius_mm = std::max(0.0, report.finer_reach->radius_mm - setup.allowance_mm);
-    // A tool that is nowhere as thin as the ball of the request would leave more: what is proved is about tools like it.
-    report.least_left = least_left(setup, report, std::max(radius, smallest_radius(tool)));
-  }
+  if (reach && report.coverage < wanted) say_what_is_left(setup, *reach, kReachSpacings * usual, tool, wanted, report);
   if (request.most_turn_deg > 0.0) report.turn = turn_of(tool, path, judged);
   report.buried = std::move(buried);
   report.sheet_sides = setup.sides;
