@@ -77,6 +77,11 @@ void measure_written(const FitDraft& draft, const FlankFitOptions& options, Cove
 }
 
 Polished assess(FitDraft draft, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
+  return assess(std::move(draft), samples, options, Refined::kCuts);
+}
+
+Polished assess(FitDraft draft, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options,
+                Refined refined) {
   Polished polished;
   if (!has_values(draft)) {
     constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -85,7 +90,8 @@ Polished assess(FitDraft draft, const std::vector<SurfaceSample>& samples, const
     return polished;
   }
   if (draft.free_tool) draft.tool = clamp_tool(draft.tool, options.bounds);
-  polished.estimate = estimate_coverage(samples, draft.motions, draft.tool, options.tolerance_mm, kRankingPoses);
+  polished.estimate =
+      estimate_coverage(samples, draft.motions, draft.tool, options.tolerance_mm, kRankingPoses, refined);
   polished.estimate.gouge_mm = flank_gouge(draft.motions, draft.obstacles, draft.tool, options.bounds, kRankingPoses);
   measure_motion(draft, options, polished.estimate,
                  [](const RuledMotion& motion) { return even_poses(motion, kRankingPoses); });

@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "flank/fit/coverage.h"
 #include "flank/fit/stages.h"
 
 namespace flank::internal {
@@ -62,5 +63,8 @@ using IsEnough = std::function<bool(const Polished&)>;
 /// its values.
 [[nodiscard]] Polished assess(FitDraft draft, const std::vector<SurfaceSample>& samples,
                               const FlankFitOptions& options);
+/// The same; `refined`: of what it covers (estimate_coverage).
+[[nodiscard]] Polished assess(FitDraft draft, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options,
+                              Refined refined);
 
 }  // namespace flank::internal

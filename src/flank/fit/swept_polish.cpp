@@ -6,7 +6,6 @@
 
 #include "flank/base/stopping.h"
 #include "flank/base/tolerance_budget.h"
-#include "flank/fit/coverage.h"
 #include "flank/fit/lengthen.h"
 #include "flank/fit/model/constrained.h"
 #include "flank/fit/swept_pass.h"
@@ -63,22 +62,6 @@ FitStage envelope_stage(bool last, const FlankFitOptions& options, double size) 
   return stage;
 }
 
-/// As assess() has it, with every sample's distance refined: a rough one of a thin tool is off by more than an exact fit is.
-Polished assess_exactly(FitDraft draft, const std::vector<SurfaceSample>& samples, const FlankFitOptions& options) {
-  Polished polished = assess(std::move(draft), samples, options);
-  if (!has_values(polished.draft)) return polished;
-  const CoverageEstimate exact = estimate_coverage(samples, polished.draft.motions, polished.draft.tool,
-                                                   options.tolerance_mm, kRankingPoses, Refined::kAll);
-  CoverageEstimate& estimate = polished.estimate;
-  estimate.at_tolerance = exact.at_tolerance;
-  estimate.at_four_tolerances = exact.at_four_tolerances;
-  estimate.of_whole = exact.of_whole;
-  estimate.overcut_mm = exact.overcut_mm;
-  estimate.undercut_mm = exact.undercut_mm;
-  estimate.rms_mm = exact.rms_mm;
-  return polished;
-}
-
 }  // namespace
 
 Polished swept_polish(const Polished& polished, const std::vector<SurfaceSample>& samples,
@@ -123,7 +106,8 @@ Polished refine_exact_envelope(const Polished& polished, const std::vector<Surfa
   constexpr double kRunOn = 0.02;          // of the motion's time, at both ends: no pose at an end leaves the border
   constexpr double kNearlyCovered = 0.98;  // by the samples: what misses more has something else to mend first
   const double size = polished.draft.targets.front()->diagonal();
-  const Polished start = assess_exactly(polished.draft, samples, options);
+  // A rough distance of a thin tool is off by more than an exact fit is.
+  const Polished start = assess(polished.draft, samples, options, Refined::kAll);
   const CoverageEstimate& estimate = start.estimate;
   const double nearest = polished.draft.free_tool ? kEnvelope : kLifted;
   if (stopping() || estimate.at_tolerance < kNearlyCovered || estimate.rms_mm > nearest * size) return polished;
@@ -133,7 +117,7 @@ Polished refine_exact_envelope(const Polished& polished, const std::vector<Surfa
   for (int pass = 0; pass < kMostPasses && !stopping(); ++pass) {
     const FitStage stage = envelope_stage(pass > 0, options, size);
     const double last_rms = trial.estimate.rms_mm;
-    trial = assess_exactly(run_swept(trial.draft, options.bounds, stage, points, trace), samples, options);
+    trial = assess(run_swept(trial.draft, options.bounds, stage, points, trace), samples, options, Refined::kAll);
     const CoverageEstimate &now = trial.estimate, &before = best.estimate;
     if (now.rms_mm > kEnvelopeGains * std::min(last_rms, before.rms_mm)) break;
     const double deepest = std::max(before.overcut_mm, exact_overcut(trial.draft, options.tolerance_mm));
