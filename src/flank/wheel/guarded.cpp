@@ -31,13 +31,13 @@ MotionGuard guard_of(WheelWork& work, const Path& path, const RadialFunction& ra
   return {work.guard_triangles(path, radial, off), off, radial, most_mm};
 }
 
-/// Whether anything could hold the tool during a motion: the rod in its axis above the flank keeps out of the whole wheel.
+/// Whether the tool is held during a motion: its shank keeps out of the whole wheel.
 class HoldGuard {
  public:
-  HoldGuard(WheelWork& work, const RadialFunction& radial)
-      : from_mm_(radial.axis_length()),
+  HoldGuard(WheelWork& work, const Tool& tool)
+      : from_mm_(tool.radial.axis_length() + shank_radius(tool)),
         rod_(ToolFamily::kCylinder, work.reach_mm(),
-             Eigen::VectorXd::Constant(1, rod_radius(radial, work.reach_mm(), RodRoom::kGuarded))),
+             Eigen::VectorXd::Constant(1, rod_radius(shank_radius(tool), work.reach_mm(), RodRoom::kGuarded))),
         guard_(work.wheel_triangles(), 0.0, rod_, 0.0) {}
   HoldGuard(const HoldGuard&) = delete;
   HoldGuard& operator=(const HoldGuard&) = delete;
@@ -85,12 +85,13 @@ Path lifted(WheelWork& work, const Path& path) {
 }
 
 Path guarded(WheelWork& work, const Path& path) {
-  return guarded(work, path, work.tool->radial, kMostShare * work.job.tolerance_mm);
+  return guarded(work, path, *work.tool, kMostShare * work.job.tolerance_mm);
 }
 
-Path guarded(WheelWork& work, const Path& path, const RadialFunction& radial, double most_mm) {
+Path guarded(WheelWork& work, const Path& path, const Tool& tool, double most_mm) {
+  const RadialFunction& radial = tool.radial;
   const MotionGuard guard = guard_of(work, path, radial, most_mm);
-  const HoldGuard hold(work, radial);
+  const HoldGuard hold(work, tool);
   std::vector<std::pair<std::size_t, std::size_t>> all;
   for (std::size_t s = 0; s < path.strips.size(); ++s)
     for (std::size_t k = 0; k + 1 < path.strips[s].poses.size(); ++k) all.emplace_back(s, k);

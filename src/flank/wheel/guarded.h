@@ -10,9 +10,9 @@ namespace flank::internal {
 [[nodiscard]] Path lifted(WheelWork& work, const Path& path);
 
 /// The stretches of the strips in which the flank is proved to enter no face of the part by more than the tolerance, their own faces
-/// among them (MotionGuard), and the axis above it nothing of the whole wheel.
+/// among them (MotionGuard), and a shank above it nothing of the whole wheel.
 [[nodiscard]] Path guarded(WheelWork& work, const Path& path);
-/// The same with another flank, and another depth; < 0: it keeps off so far.
-[[nodiscard]] Path guarded(WheelWork& work, const Path& path, const RadialFunction& radial, double most_mm);
+/// The same with another tool, and another depth; < 0: it keeps off so far.
+[[nodiscard]] Path guarded(WheelWork& work, const Path& path, const Tool& tool, double most_mm);
 
 }  // namespace flank::internal

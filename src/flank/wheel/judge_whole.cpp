@@ -1,16 +1,23 @@
 #include "flank/wheel/judge_whole.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <utility>
+#include <variant>
 
 #include "flank/io/face_names.h"
+#include "flank/io/text/json_input.h"
+#include "flank/job/job_json.h"
+#include "flank/path_file.h"
 #include "flank/pipeline/folder/judge_job.h"
 #include "flank/pipeline/folder/wheel_plan.h"
 #include "flank/pipeline/run_journal.h"
+#include "flank/results/verify_json.h"
 #include "flank/results/view.h"
 #include "flank/setup/clearance_scene.h"
 #include "flank/setup/read_setup.h"
+#include "flank/setup/tool_body.h"
 #include "flank/wheel/perform.h"
 #include "flank/wheel/sector.h"
 
@@ -30,6 +37,28 @@ std::vector<std::string> flow_faces(const WheelWork& work) {
   return out;
 }
 
+/// All of a result but its verdict.
+void describe(const CoverJob& job, const Setup& setup, Tool tool, Path path, Result& result) {
+  result.job = job;
+  result.inputs = input_stamps(job);
+  result.part_sha256 = setup.part.sha256;
+  result.tool = std::move(tool);
+  result.path = std::move(path);
+  result.plan = CoverSummary{};
+  result.diagonal_mm = setup.part.box.diagonal();
+}
+
+/// What the verdict says of the tool's shank and holder, and the drawings.
+void measure_bodies_of(const Setup& setup, Result& result) {
+  const ClearanceScene scene = make_clearance_scene(setup, std::get<CoverJob>(result.job).obstacles,
+                                                    has_body(result.tool), result.notes);
+  measure_bodies(scene, result.tool, result.path, result.verify);
+  add_caveats(result.verify, result.notes);
+  auto drawings = std::make_shared<Result::Drawings>();
+  drawings->view = make_view(result.job, setup, result.tool, result.path, result.verify);
+  result.drawings = std::move(drawings);
+}
+
 }  // namespace
 
 Result judged_path(const WheelWork& work, const std::vector<std::string>& faces, Path path, double least, Care care,
@@ -47,23 +76,22 @@ Result judged_path(const WheelWork& work, const std::vector<std::string>& faces,
   Setup setup = read_setup(job.part, job.obstacles, job.tolerance_mm, result.notes);
   if (care == Care::kFull) stand_lacking(*read_wheel_plan(work.job.folder), setup);
   if (care == Care::kDraft) job.judge.sample_mm = coarse_spacing(setup, kDraftSamples);
-  result.job = job;
-  result.inputs = input_stamps(job);
-  result.part_sha256 = setup.part.sha256;
-  result.tool = tool == "T2" ? *work.rough_tool : *work.tool;
-  result.path = std::move(path);
-  result.plan = CoverSummary{};
-  result.diagonal_mm = setup.part.box.diagonal();
-  const ClearanceScene scene = make_clearance_scene(
-      setup, job.obstacles, !result.tool.holder.empty() || !result.tool.shank.empty(), result.notes);
+  describe(job, setup, tool == "T2" ? *work.rough_tool : *work.tool, std::move(path), result);
   // Small faces beside large ones: each has samples enough only where no spacing is given for all.
   const DepthProof depth = work.job.sample_mm || care == Care::kDraft ? DepthProof::kSampled : DepthProof::kProved;
   result.verify = judge_job(setup, job.judge, result.tool, result.path, depth);
-  measure_bodies(scene, result.tool, result.path, result.verify);
-  add_caveats(result.verify, result.notes);
-  auto drawings = std::make_shared<Result::Drawings>();
-  drawings->view = make_view(result.job, setup, result.tool, result.path, result.verify);
-  result.drawings = std::move(drawings);
+  measure_bodies_of(setup, result);
+  return result;
+}
+
+Result with_tool(const std::string& folder, const Tool& tool) {
+  const auto file = [&](const char* name) { return (std::filesystem::path(folder) / name).string(); };
+  const auto job = std::get<CoverJob>(job_from_json(read_file(file("job.json")), file("job.json")));
+  Result result;
+  const Setup setup = read_setup(job.part, job.obstacles, job.tolerance_mm, result.notes);
+  describe(job, setup, tool, read_path(file("path.json")), result);
+  result.verify = verify_from_json(read_file(file("verify.json")), file("verify.json"));
+  measure_bodies_of(setup, result);
   return result;
 }
 

@@ -20,6 +20,9 @@ enum class Care { kDraft, kFull };
 [[nodiscard]] Result judged_path(const WheelWork& work, const std::vector<std::string>& faces, Path path, double least,
                                  Care care, const std::string& tool = "T1");
 
+/// The result in an operation's folder with another shank or holder on its tool: they are judged, and the flank's figures stay.
+[[nodiscard]] Result with_tool(const std::string& folder, const Tool& tool);
+
 /// All sectors that the part has, on all its flow faces.
 [[nodiscard]] Result judge_whole(const WheelWork& work);
 

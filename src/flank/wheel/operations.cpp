@@ -223,6 +223,9 @@ WheelOperation side_operation(WheelWork& work, const Progress& progress) {
   });
   if (!operation.done) return operation;
   work.tool = read_tool(in_folder(work, operation.folder + "/tool.json"));
+  // A shank that was chosen at the end of an earlier run is chosen again at the end of this one.
+  const ToolSpec given = parse_tool_spec(spec);
+  if (!given.tool || !has_body(*given.tool)) work.tool->shank.clear();
   write_tool(*work.tool, in_folder(work, "tools/T1.json"));
   take(work, operation);
   return operation;

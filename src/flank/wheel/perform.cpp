@@ -36,6 +36,16 @@ std::string tool_file(const WheelWork& work, const std::string& tool) {
   return fs::absolute(in_folder(work, "tools/" + tool + ".json")).lexically_normal().string();
 }
 
+void settle(const Result& result, WheelOperation& operation) {
+  const std::optional<Shortfall> shortfall = found_by_samples(result.acceptance());
+  operation.done = result.complete;
+  operation.pass = result.complete && !shortfall;
+  if (!result.complete)
+    operation.problem = "stopped, or its limit of processor time was reached";
+  else
+    operation.problem = shortfall ? shortfall->text : std::string();
+}
+
 WheelOperation perform(const WheelWork& work, WheelOperation operation, const std::string& decides,
                        const std::function<Result()>& make) {
   operation.folder = "ops/" + operation.id + "-" + operation.kind;
@@ -53,13 +63,7 @@ WheelOperation perform(const WheelWork& work, WheelOperation operation, const st
     const Result result = make();
     if (result.path.pose_count() == 0) throw InputError("no pass was found");
     write_result(result, in_folder(work, operation.folder));
-    const std::optional<Shortfall> shortfall = found_by_samples(result.acceptance());
-    operation.done = result.complete;
-    operation.pass = result.complete && !shortfall;
-    if (!result.complete)
-      operation.problem = "stopped, or its limit of processor time was reached";
-    else if (shortfall)
-      operation.problem = shortfall->text;
+    settle(result, operation);
   } catch (const Error& error) {
     operation.problem = error.what();
   }

@@ -17,6 +17,9 @@ namespace flank::internal {
 [[nodiscard]] WheelOperation perform(const WheelWork& work, WheelOperation operation, const std::string& decides,
                                      const std::function<Result()>& make);
 
+/// Whether a result is what its operation was to do, and else why not.
+void settle(const Result& result, WheelOperation& operation);
+
 /// Strips of an operation that is done go into the finishing path.
 void take(WheelWork& work, const WheelOperation& operation);
 

@@ -15,6 +15,7 @@
 #include "flank/wheel/guarded.h"
 #include "flank/wheel/judge_whole.h"
 #include "flank/wheel/perform.h"
+#include "flank/wheel/point/axis_rod.h"
 #include "flank/wheel/point/floor_map.h"
 #include "flank/wheel/point/floor_passes.h"
 #include "flank/wheel/point/pass_strips.h"
@@ -103,7 +104,8 @@ const std::vector<Vec2>& top_of(const WheelWork& work) {
   return work.job.blank ? work.blank.outline : work.roles.outline;
 }
 
-Path rough_path(WheelWork& work, const RadialFunction& radial) {
+Path rough_path(WheelWork& work, const Tool& tool) {
+  const RadialFunction& radial = tool.radial;
   const double tip = radial.at(0.0).r, keep = kAllowanceMm + (work.equal() ? 0.0 : work.difference_mm);
   Path out;
   for (const SectorChannel& one : work.sector.channels) {
@@ -112,6 +114,7 @@ Path rough_path(WheelWork& work, const RadialFunction& radial) {
     PointOptions options = work.point_options(work.roles.hub);
     options.enter_share = -keep / work.job.tolerance_mm;
     options.apart_mm = kApartShare * tip;
+    options.shank_mm = shank_radius(tool);
     options.is_air = [&section, tip](const Vec3& center) { return section.is_air(center, tip); };
     const int layers = 1 + static_cast<int>(std::ceil(section.height() / (kLayerShare * tip)));
     std::vector<double> heights;
@@ -124,7 +127,7 @@ Path rough_path(WheelWork& work, const RadialFunction& radial) {
         out.strips.push_back(thinned(strip, radial.axis_length(), kChordShare * kAllowanceMm));
       }
   }
-  return guarded(work, out, radial, -0.5 * kAllowanceMm - (work.equal() ? 0.0 : work.difference_mm));
+  return guarded(work, out, tool, -0.5 * kAllowanceMm - (work.equal() ? 0.0 : work.difference_mm));
 }
 
 }  // namespace
@@ -142,7 +145,7 @@ WheelOperation rough_operation(WheelWork& work) {
   std::string decides = tool_to_json(tool) + fmt::format("{} {}", work.job.tolerance_mm, work.difference_mm);
   if (work.job.blank) decides += sha256(read_file(*work.job.blank));
   operation = perform(work, operation, decides, [&] {
-    Path path = rough_path(work, tool.radial);
+    Path path = rough_path(work, tool);
     if (path.strips.empty()) throw InputError("no layer has room between the blades");
     return judged_path(work, work.roles.hub, std::move(path), work.job.least_coverage, Care::kDraft, operation.tool);
   });

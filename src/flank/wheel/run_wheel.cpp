@@ -26,6 +26,7 @@
 #include "flank/wheel/plan_file.h"
 #include "flank/wheel/rest_places.h"
 #include "flank/wheel/rough_operation.h"
+#include "flank/wheel/shanks.h"
 
 namespace flank::internal {
 namespace {
@@ -128,6 +129,7 @@ WheelResult run_wheel(const WheelRequest& job, const Progress& progress) {
   progress.step("rough", 0.6);
   if (job.rough) run(rough_operation(work));
   progress.step("verify", 0.8);
+  give_shanks(work, result.operations, result.notes);
   judge(work, result);
   plan.end();
   return result;

@@ -11,6 +11,7 @@
 #include "flank/geom/tessellate.h"
 #include "flank/io/face_names.h"
 #include "flank/path/turning.h"
+#include "flank/wheel/point/axis_rod.h"
 #include "flank/wheel/swept_boxes.h"
 
 namespace flank::internal {
@@ -171,6 +172,7 @@ PointOptions WheelWork::point_options(const Names& names) {
   options.tolerance_mm = job.tolerance_mm;
   options.turn_window_mm = kWindowShare * turn_window(size);
   options.held = {up(), job.most_tilt_deg * std::numbers::pi / 180.0};
+  if (tool) options.shank_mm = shank_radius(*tool);
   return options;
 }
 

@@ -11,6 +11,8 @@
 #include "flank/manifest/result_folder.h"
 #include "flank/path_file.h"
 #include "flank/pipeline/folder/judge_job.h"
+#include "flank/setup/clearance_scene.h"
+#include "flank/setup/tool_body.h"
 #include "flank/tool_file.h"
 #include "flank/verify/program_stock.h"
 
@@ -46,6 +48,9 @@ std::optional<JudgedRoughing> judge_roughing(const WheelPlan& plan, const Setup&
   out.most_engagement_deg = plan.most_engagement_deg;
   out.tool = read_tool((std::filesystem::path(step->folder) / "tool.json").string());
   out.cuts = judge_cuts(setup, out.tool, all);
+  std::vector<std::string> told;
+  // One sector stands for its copies.
+  measure_bodies(make_clearance_scene(setup, {}, has_body(out.tool), told), out.tool, sector, out.cuts);
   if (!plan.blank.empty())
     out.stock = rough_stock(out.tool, sector, read_stl(plan.blank, read_file(plan.blank)), plan.most_engagement_deg);
   return out;

@@ -1,13 +1,18 @@
 #include "flank/wheel/point/axis_rod.h"
 
-#include "flank/tool.h"
+#include <algorithm>
 
 namespace flank::internal {
 
-double rod_radius(const RadialFunction& radial, double reach_mm, RodRoom room) {
+double shank_radius(const Tool& tool) {
+  double largest = 0.0;
+  for (const Vec2& p : tool.shank) largest = std::max(largest, p.y());
+  return largest > 0.0 ? largest : meridian_point(tool.radial, tool.radial.axis_length()).y();
+}
+
+double rod_radius(double shank_mm, double reach_mm, RodRoom room) {
   constexpr double kPlannedShare = 6e-3, kGuardedShare = 5e-3;  // of the reach
-  return kRodShare * radial.at(radial.axis_length()).r +
-         (room == RodRoom::kPlanned ? kPlannedShare : kGuardedShare) * reach_mm;
+  return shank_mm + (room == RodRoom::kPlanned ? kPlannedShare : kGuardedShare) * reach_mm;
 }
 
 }  // namespace flank::internal

@@ -38,6 +38,7 @@ struct PointOptions {
   double height_mm = 0.0;  ///< of a roughing layer over the floor; 0: the floor itself
   double apart_mm = 0.0;   ///< between passes; 0: as the scallop says
   TiltCone held = {};      ///< the axes that there may be
+  double shank_mm = 0.0;   ///< radius of what stands above the flank, to beyond the wheel
   /// Whether the tip at a place of its centre is in the air, and no pass is needed there; empty: nowhere.
   std::function<bool(const Vec3&)> is_air = {};
   /// Whether a place of a wall is finished already; empty: none is.

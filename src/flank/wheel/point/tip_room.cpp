@@ -45,7 +45,8 @@ TipRoom::TipRoom(const FloorChannel& channel, const RadialFunction& radial, cons
       enter_mm_(options.enter_share * options.tolerance_mm),
       length_(radial.axis_length()),
       above_(length_ + 2.0 * radial.at(length_).r),
-      rod_mm_(rod_radius(radial, channel.reach_mm, RodRoom::kPlanned)),
+      rod_from_(length_ + options.shank_mm),
+      rod_mm_(rod_radius(options.shank_mm, channel.reach_mm, RodRoom::kPlanned)),
       held_(options.held) {}
 
 std::optional<TipRoom::Rest> TipRoom::rest(const Vec3& p) const {
@@ -73,7 +74,7 @@ double TipRoom::rod_room(const Pose& pose, double most) const {
   if (channel_.wheel == nullptr) return least;
   // The rod is long and the wheel seldom near: how far exactly is not asked beyond a few millimetres.
   const double look = rod_mm_ + std::max(most, kRodLookMm);
-  for (double s = length_; s <= length_ + channel_.reach_mm;) {
+  for (double s = rod_from_; s <= length_ + channel_.reach_mm;) {
     const Vec3 p = pose.at(s);
     if (channel_.wheel_distances != nullptr) {
       const double gap = channel_.wheel_distances->at_least(p) - rod_mm_;

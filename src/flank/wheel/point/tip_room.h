@@ -44,7 +44,7 @@ class TipRoom {
   const RadialFunction& radial_;
   /// How far the rod in the axis above the flank is from the wheel, mm; exact where it is inside, else any number from 0 to `most`.
   [[nodiscard]] double rod_room(const Pose& pose, double most) const;
-  double tip_mm_, lift_mm_, enter_mm_, length_, above_, rod_mm_;
+  double tip_mm_, lift_mm_, enter_mm_, length_, above_, rod_from_, rod_mm_;
   TiltCone held_;
 };
 
