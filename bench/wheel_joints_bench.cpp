@@ -1,21 +1,23 @@
-// How smooth a wheel is where its operations meet: steps and turns of the normal of what is left, across the borders of its faces.
+// How smooth a wheel is where its operations meet (docs/MATH.md, section 15).
 //
 // usage: bench_wheel_joints PART FOLDER
 //
-// FOLDER is what `flank wheel` wrote of PART. Along every border between two faces of a blade, and between blade and hub, the surface that the
-// whole path leaves is compared with the faces a twentieth of a millimetre to either side: the step is what its heights over the two faces
-// differ by, the turn what its normals differ by, less what the faces' own normals do. A corner has no such turn. On each side, up from the hub,
-// the same is measured across the place where passes of the flank follow on those of the tip. All is that of the swept volume of the poses, as
-// the judge has it. Only places count of which both sides are finished.
+// FOLDER is what `flank wheel` wrote of PART. At places of every border between two faces of a blade the surface that one operation leaves is
+// compared with the surface that the other one leaves at the same place: the step is what their heights over the place differ by, the turn what
+// their normals differ by. On each side, up from the hub, the cusp is measured between the passes of the tip and those of the flank: what the
+// surfaces to either side of it differ by, a twentieth of a millimetre away. All is that of the swept volume of the poses, as the judge has it.
+// Only places count that both have finished.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "flank/feature/recognise_wheel.h"
+#include "flank/io/face_names.h"
 #include "flank/judge.h"
 #include "flank/part.h"
 #include "flank/path_file.h"
@@ -28,7 +30,7 @@ using namespace flank;
 using namespace flank::internal;
 
 constexpr double kBesideMm = 0.05, kNearMm = 0.02, kToleranceMm = 0.05, kDegrees = 57.29577951308232;
-constexpr double kSmooth = 0.2;   ///< that normals of two faces differ by, as vectors: more is a corner
+constexpr double kSmooth = 0.98;  ///< the least cosine between normals of two faces: else their border is a corner
 constexpr double kClimbMm = 4.0;  ///< up a side, from the hub
 
 /// What a path leaves beside a border, on one of its faces.
@@ -40,7 +42,13 @@ struct Left {
 
 class Finished {
  public:
-  Finished(const Tool& tool, const Path& path) : path_(path), volume_(tool, path) {}
+  Finished(const Tool& tool, Path path) : path_(std::move(path)), volume_(tool, path_) {}
+  /// What is left at a place itself; none where that is too much.
+  [[nodiscard]] std::optional<Left> at(const Vec3& x) const {
+    const SweptDistance left = volume_.distance(x, 1.0);
+    if (left.strip < 0 || std::abs(left.f) > kToleranceMm) return {};
+    return Left{left.f, (center(left) - x).normalized()};
+  }
   /// So far from the border. None where too much is left, or the face ends.
   [[nodiscard]] std::optional<Left> beside(const Target& face, const Vec3& border, const Vec3& along,
                                            double far) const {
@@ -65,7 +73,7 @@ class Finished {
     const Vec3 axis = ((1.0 - t) * poses[k].axis + t * poses[k + 1].axis).normalized();
     return (1.0 - t) * poses[k].tip + t * poses[k + 1].tip + at.s * axis;
   }
-  const Path& path_;
+  Path path_;
   SweptVolume volume_;
 };
 
@@ -76,20 +84,32 @@ struct Joint {
 
 void compare(const Left& a, const Left& b, Joint& out) {
   out.steps_um.push_back(1000.0 * std::abs(a.height - b.height));
-  if ((a.normal - b.normal).norm() < kSmooth) out.turns_deg.push_back(kDegrees * (a.turned - b.turned).norm());
+  out.turns_deg.push_back(kDegrees * (a.turned - b.turned).norm());
 }
 
-void add(const WheelFace& face, const Target& own, const Target& other, const Finished& finished, Joint& out) {
-  for (std::size_t k = 1; k + 1 < face.border.size(); ++k) {
-    const Vec3 &before = face.border[k - 1], &at = face.border[k], &after = face.border[k + 1];
-    // Loops follow each other in the list.
-    if ((after - before).norm() > 5.0 || (after - before).norm() < 1e-6) continue;
-    if (std::abs(other.closest(at).distance) > kNearMm) continue;
+/// The strips of a kind over a face.
+Path strips_of(const Path& path, const std::string& kind, const std::string& face) {
+  Path out;
+  for (const Strip& strip : path.strips) {
+    const std::vector<std::string> faces = face_list_items(strip.face);
+    if (strip.kind == kind && std::find(faces.begin(), faces.end(), face) != faces.end()) out.strips.push_back(strip);
+  }
+  return out;
+}
+
+/// Along the border between a side and a face whose operation is another one.
+void add(const WheelFace& face, const Target& own, const Target& other, const Finished& flank, const Finished& tip,
+         Joint& out) {
+  // Each second place is in the middle of a chord, and not on the border.
+  for (std::size_t k = 0; k < face.border.size(); k += 2) {
+    const Vec3& at = face.border[k];
+    const Footpoint foot = other.closest(at);
+    if (std::abs(foot.distance) > kNearMm || own.closest(at).normal.dot(foot.normal) < kSmooth) continue;
     ++out.points;
-    const Vec3 along = (after - before).normalized();
-    const std::optional<Left> a = finished.beside(own, at, along, kBesideMm),
-                              b = finished.beside(other, at, along, kBesideMm);
-    if (a && b) compare(*a, *b, out);
+    const std::optional<Left> a = flank.at(at), b = tip.at(at);
+    if (!a || !b) continue;
+    out.steps_um.push_back(1000.0 * std::abs(a->height - b->height));
+    out.turns_deg.push_back(kDegrees * std::acos(std::clamp(a->normal.dot(b->normal), -1.0, 1.0)));
   }
 }
 
@@ -136,29 +156,29 @@ int main(int count, char** words) {
   const std::string folder = words[2];
   const WheelRoles roles = recognise_wheel(part, {});
   const Path path = read_path(folder + "/path.json");
-  const Finished finished(read_tool(folder + "/tool.json"), path);
+  const Tool tool = read_tool(folder + "/tool.json");
+  const Finished finished(tool, path);
   FaceTargets targets(part);
-  std::map<std::string, std::string> role;
-  for (const std::string& face : roles.hub) role[face] = "hub";
   const WheelBlade& blade = roles.blades.front();
-  for (const std::string& face : blade.sides()) role[face] = "side";
-  for (const std::string& face : blade.edges) role[face] = "edge";
-  for (const RootFillet& fillet : blade.fillets) role[fillet.face] = "fillet";
+  std::map<std::string, std::string> beside;
+  for (const std::string& face : blade.edges) beside[face] = "edge";
+  for (const RootFillet& fillet : blade.fillets) beside[fillet.face] = "fillet";
   std::map<std::string, Joint> joints;
-  const std::vector<WheelFace> faces = wheel_faces(part);
-  for (const WheelFace& face : faces) {
-    if (!role.contains(face.id) || role[face.id] == "hub") continue;
-    for (const auto& [other, what] : role) {
-      // Of two faces of a blade each has the border; it is looked at once.
-      if (other == face.id || (what != "hub" && other < face.id)) continue;
-      const std::string name = std::min(role[face.id], what) + " to " + std::max(role[face.id], what);
-      const Target &own = *targets.of({face.id}).front(), &beside = *targets.of({other}).front();
-      add(face, own, beside, finished, joints[name]);
-      if (role[face.id] == "side" && (what == "hub" || what == "fillet"))
-        climb(face, own, beside, finished, joints["tip to flank"]);
+  for (const WheelFace& face : wheel_faces(part)) {
+    const std::vector<std::string> sides = blade.sides();
+    if (std::find(sides.begin(), sides.end(), face.id) == sides.end()) continue;
+    const Path flank = strips_of(path, "flank", face.id);
+    for (const auto& [other, kind] : beside) {
+      const Path passes = strips_of(path, kind, other);
+      if (!flank.strips.empty() && !passes.strips.empty())
+        add(face, *targets.of({face.id}).front(), *targets.of({other}).front(), {tool, flank}, {tool, passes},
+            joints["side to " + kind]);
     }
+    const Target& own = *targets.of({face.id}).front();
+    for (const std::string& hub : roles.hub)
+      climb(face, own, *targets.of({hub}).front(), finished, joints["cusp at flank"]);
   }
-  std::printf("median, nine tenths and most, %g mm to either side of a border\n", kBesideMm);
+  std::printf("median, nine tenths and most; cusps %g mm to either side\n", kBesideMm);
   for (const auto& [name, joint] : joints) tell(name, joint);
   return 0;
 }

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "flank/error.h"
@@ -53,15 +54,26 @@ IsFinished finished_by(const WheelWork& work, const std::vector<Strip>& strips) 
   return [finished](const Vec3& x) { return (*finished)(x); };
 }
 
+/// What the flank has left of the sides. Passes of the tip leave scallops, which nothing can go on from smoothly.
+std::function<std::optional<SurfaceLeft>(const Vec3&)> left_by_flank(const WheelWork& work) {
+  std::vector<Strip> strips;
+  for (const Strip& strip : work.finish.strips)
+    if (strip.kind == "flank") strips.push_back(strip);
+  const auto places = std::make_shared<const FinishedPlaces>(strips, work.tool->radial, work.job.tolerance_mm);
+  return [places](const Vec3& x) { return places->left(x); };
+}
+
 /// Everywhere, or only where operations before have left something.
 Path passes_along(WheelWork& work, const std::string& kind, const Names& faces, const IsFinished& is_finished) {
   const FloorChannel place = around(work);
+  const auto left = left_by_flank(work);
   Path out;
   for (const std::string& name : faces) {
     const std::optional<Face> face = work.targets.face(name);
     if (!face) throw InputError(name + ": passes along a face need its surface, and a mesh has none");
     PointOptions options = work.point_options({name});
     options.is_finished = is_finished;
+    options.left_by_flank = left;
     for (Strip& strip : face_passes(*face, place, work.tool->radial, options, kind, name))
       out.strips.push_back(std::move(strip));
   }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 #include "flank/geom/tessellate.h"
@@ -40,13 +41,16 @@ struct Edge {
   Edge() { tool.radial = RadialFunction(ToolFamily::kCone, 6.0, Eigen::Vector2d(kTip, 0.1)); }
 
   /// `tilt_deg`: of the axis from +y, at most; none: any.
-  [[nodiscard]] std::vector<Strip> passes(bool finished, std::optional<double> tilt_deg = {}) const {
+  [[nodiscard]] std::vector<Strip> passes(
+      bool finished, std::optional<double> tilt_deg = {},
+      const std::function<std::optional<SurfaceLeft>(const Vec3&)>& left_by_flank = {}) const {
     FloorChannel around;
     around.walls = {target.get()};
     around.coarse = &coarse;
     PointOptions options;
     options.tolerance_mm = kTolerance;
     if (tilt_deg) options.held = {Vec3::UnitY(), *tilt_deg * M_PI / 180.0};
+    options.left_by_flank = left_by_flank;
     if (finished) options.is_finished = [](const Vec3&) { return true; };
     return face_passes(face, around, tool.radial, options, "edge", "F1");
   }
@@ -89,6 +93,35 @@ TEST(FacePasses, LeanNoFartherThanAMachineTilts) {
 }
 
 TEST(FacePasses, WhatIsFinishedHasNone) { EXPECT_TRUE(Edge().passes(true).empty()); }
+
+/// Half of the border's length is beside a side that a flank has finished, too deep.
+TEST(FacePasses, GoOnAlongTheBorderFromWhatTheFlankHasLeft) {
+  constexpr double kCut = 0.03, kLean = 0.05;
+  const Edge edge;
+  const auto left = [&](const Vec3& x) -> std::optional<SurfaceLeft> {
+    if (x.z() > 0.5 * kSpan) return {};
+    const Footpoint foot = edge.target->closest(x);
+    return SurfaceLeft{-kCut, (foot.normal + kLean * Vec3::UnitZ()).normalized()};
+  };
+  const std::vector<Strip> plain = edge.passes(false), strips = edge.passes(false, {}, left);
+  ASSERT_EQ(strips.size(), plain.size()) << "a step along a pass would be a kink, and cut it";
+  int joined = 0, alone = 0;
+  for (const Strip* strip : {&strips.front(), &strips.back()})
+    for (const Pose& pose : strip->poses) {
+      const Footpoint foot = edge.target->closest(pose.tip);
+      if (pose.tip.z() < 0.45 * kSpan && pose.tip.z() > 0.1) {
+        // It touches the surface that is left, where that is the border's.
+        const Vec3 touched = pose.tip - kTip * (foot.normal + kLean * Vec3::UnitZ()).normalized();
+        EXPECT_NEAR(edge.target->closest(touched).distance, -kCut, 1e-3);
+        ++joined;
+      } else if (pose.tip.z() > 0.9 * kSpan) {
+        EXPECT_NEAR(foot.distance, kTip + 0.1 * kTolerance, 1e-6);
+        ++alone;
+      }
+    }
+  EXPECT_GT(joined, 20);
+  EXPECT_GT(alone, 4);
+}
 
 TEST(FaceLines, AreNearerToEachOtherWhereTheSphereIsSmaller) {
   const Face face = half_cylinder();
@@ -154,6 +187,33 @@ TEST(FinishedPlaces, AreThoseThatAPoseComesNearTo) {
   }
   EXPECT_GT(inside, 40);
   EXPECT_LT(inside, 360);
+}
+
+TEST(FinishedPlaces, LeaveWhatTheJudgeFinds) {
+  Tool tool;
+  tool.radial = RadialFunction(ToolFamily::kCone, 12.0, Eigen::Vector2d(0.5, 0.2));
+  Path path;
+  Strip& strip = path.strips.emplace_back();
+  for (int k = 0; k <= 20; ++k)
+    strip.poses.push_back({Vec3(0.7 * k, 0.004 * k * k, 0.0), Vec3(0.3, 0.02 * k, 1.0).normalized()});
+  const FinishedPlaces finished(path.strips, tool.radial, 0.05);
+  const SweptVolume volume(tool, path);
+  int near = 0;
+  for (int k = 0; k < 40; ++k) {
+    // On the flank of a pose between two, and a little off it.
+    const double t = 0.5 + 0.47 * k, s = 1.0 + 0.25 * k, share = t - std::floor(t);
+    const Pose &a = strip.poses[static_cast<std::size_t>(t)], &b = strip.poses[static_cast<std::size_t>(t) + 1];
+    const Pose pose{(1.0 - share) * a.tip + share * b.tip, ((1.0 - share) * a.axis + share * b.axis).normalized()};
+    const Vec3 out = pose.axis.cross(b.tip - a.tip).normalized(), x = pose.at(s) + tool.radial.at(s).r * out;
+    const SweptDistance judged = volume.distance(x, 1.0);
+    const std::optional<SurfaceLeft> left = finished.left(x);
+    ASSERT_EQ(left.has_value(), judged.f <= 0.05) << k;
+    if (!left) continue;
+    ++near;
+    EXPECT_NEAR(left->height_mm, judged.f, 1e-5) << k;
+    EXPECT_NEAR(left->normal.norm(), 1.0, 1e-12);
+  }
+  EXPECT_GT(near, 20);
 }
 
 }  // namespace

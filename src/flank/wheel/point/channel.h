@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "flank/feature/wheel_axis.h"
@@ -29,6 +30,12 @@ struct FloorChannel {
   double blade_mm = 0.0;  ///< thickness of the blades at their feet: so far the floor goes on beyond a side's end
 };
 
+/// What an earlier pass of the flank has left at a place.
+struct SurfaceLeft {
+  double height_mm = 0.0;       ///< over it; < 0: the place is cut
+  Vec3 normal = Vec3::UnitZ();  ///< unit, away from the material
+};
+
 struct PointOptions {
   double tolerance_mm = 0.05;
   double scallop_share = 0.5;  ///< of the tolerance, that scallops take; the rest is for chords and the tip's height
@@ -43,6 +50,8 @@ struct PointOptions {
   std::function<bool(const Vec3&)> is_air = {};
   /// Whether a place of a wall is finished already; empty: none is.
   std::function<bool(const Vec3&)> is_finished = {};
+  /// What the flank has left at a place of a face's border, which a pass along it goes on smoothly from; empty: nothing.
+  std::function<std::optional<SurfaceLeft>(const Vec3&)> left_by_flank = {};
 };
 
 }  // namespace flank::internal

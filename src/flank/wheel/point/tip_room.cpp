@@ -64,9 +64,9 @@ std::optional<TipRoom::Rest> TipRoom::rest(const Vec3& p) const {
   return {};
 }
 
-bool TipRoom::tip_is_free(const Vec3& center) const {
+bool TipRoom::tip_is_free(const Vec3& center, double deeper_mm) const {
   const Footpoint foot = nearest_foot(channel_.walls, center, tip_mm_ + kHorizonMm);
-  return foot.patch < 0 || height_of(foot) - tip_mm_ >= -enter_mm_;
+  return foot.patch < 0 || height_of(foot) - tip_mm_ >= -enter_mm_ - deeper_mm;
 }
 
 double TipRoom::rod_room(const Pose& pose, double most) const {
@@ -91,14 +91,14 @@ double TipRoom::rod_room(const Pose& pose, double most) const {
   return least;
 }
 
-double TipRoom::room(const Pose& pose, double up_to) const {
+double TipRoom::room(const Pose& pose, double enter_mm) const {
   double least = kHorizonMm;
-  for (double s = 0.0; s <= up_to;) {
+  for (double s = 0.0; s <= above_;) {
     const double r = radius(s);
     const Vec3 p = pose.at(s);
     if (s > 0.0 && channel_.distances != nullptr) {
       const double gap = channel_.distances->at_least(p) - r - kTrianglesOffMm;
-      if (gap > kStepMm && gap >= -enter_mm_) {
+      if (gap > kStepMm && gap >= -enter_mm) {
         least = std::min(least, gap);
         s += std::max(kStepMm, 0.5 * gap);
         continue;
@@ -107,9 +107,9 @@ double TipRoom::room(const Pose& pose, double up_to) const {
     if (s > 0.0 && channel_.coarse != nullptr) {
       const double gap = std::sqrt(channel_.coarse->closest(p).squared_distance) - r - kTrianglesOffMm;
       // What is to keep off by more than triangles are off their faces is settled by them, too.
-      if (gap > 0.0 || gap + 2.0 * kTrianglesOffMm < -enter_mm_) {
+      if (gap > 0.0 || gap + 2.0 * kTrianglesOffMm < -enter_mm) {
         least = std::min(least, gap);
-        if (least < -enter_mm_) return least;
+        if (least < -enter_mm) return least;
         s += std::max(kStepMm, 0.5 * gap);
         continue;
       }
@@ -122,7 +122,7 @@ double TipRoom::room(const Pose& pose, double up_to) const {
       if (floor.patch >= 0) gap = std::min(gap, height_of(floor) - r);
     }
     least = std::min(least, gap);
-    if (least < -enter_mm_) return least;
+    if (least < -enter_mm) return least;
     s += std::max(kStepMm, 0.5 * gap);
   }
   const double rod = rod_room(pose, kHorizonMm);

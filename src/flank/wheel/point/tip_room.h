@@ -25,20 +25,23 @@ class TipRoom {
     double k1 = 0.0;  ///< the less favourable bend of the floor, 1/mm
   };
   [[nodiscard]] std::optional<Rest> rest(const Vec3& p) const;
-  /// Whether the tip sphere alone enters no wall deeper than a pass may.
-  [[nodiscard]] bool tip_is_free(const Vec3& center) const;
+  /// Whether the tip sphere alone enters no wall deeper than a pass may, or `deeper_mm` more.
+  [[nodiscard]] bool tip_is_free(const Vec3& center, double deeper_mm = 0.0) const;
   [[nodiscard]] const TiltCone& held() const { return held_; }
   /// How far the flank, and a shank as thick above it, are from walls and floor, mm, at least; < 0 inside one. Exact near zero. Where
   /// the rod in the axis above them enters the wheel (axis_rod.h), as far inside.
-  [[nodiscard]] double room(const Pose& pose) const { return room(pose, above_); }
+  [[nodiscard]] double room(const Pose& pose) const { return room(pose, enter_mm_); }
   /// The same by triangles, less a gap that grows along the axis, up to `kEnoughMm`: what directions are chosen by. Ends early below
   /// `least`. A direction that is not held lacks more room than any other.
   [[nodiscard]] double rough_room(const Pose& pose, double least) const;
-  [[nodiscard]] bool is_free(const Pose& pose) const { return held_.holds(pose.axis) && room(pose) >= -enter_mm_; }
+  [[nodiscard]] bool is_free(const Pose& pose, double deeper_mm = 0.0) const {
+    return held_.holds(pose.axis) && room(pose, enter_mm_ + deeper_mm) >= -enter_mm_ - deeper_mm;
+  }
   static constexpr double kEnoughMm = 0.5;
 
  private:
-  [[nodiscard]] double room(const Pose& pose, double up_to) const;
+  /// Ends early where it is below -enter_mm.
+  [[nodiscard]] double room(const Pose& pose, double enter_mm) const;
   [[nodiscard]] double radius(double s) const { return radial_.at(s < length_ ? s : length_).r; }
   const FloorChannel& channel_;
   const RadialFunction& radial_;
