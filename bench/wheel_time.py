@@ -24,15 +24,13 @@ def length_of(path):
 def main():
     folder = Path(sys.argv[1])
     plan, verdict = (json.loads((folder / name).read_text()) for name in ("plan.json", "verify.json"))
-    if not plan["whole"]:
-        sys.exit(f"{folder}: a piece of a wheel: how much of its hub belongs to a sector is not known")
     hub = {face for op in plan["operations"] if op["kind"] == "floor" for face in op["faces"]}
     radius = min(row[1] for row in json.loads((folder / "tool.json").read_text())["samples"][:1])
     scallop = SCALLOP_SHARE * verdict["tolerance_mm"]
     apart = 2.0 * math.sqrt(2.0 * radius * scallop - scallop**2)
     sectors = plan["sectors"]
-    # The verdict counts the whole hub and the blades of one sector.
-    area = sum(face["area_mm2"] * face.get("reachable_share", 0.0) * (1 if face["face"] in hub else sectors)
+    # The verdict counts all that the part has of the hub, and the blades of one sector.
+    area = sum(face["area_mm2"] * face.get("reachable_share", 0.0) * sectors / (plan["hub_sectors"] if face["face"] in hub else 1)
                for face in verdict["faces"] if face["target"])
     ours = sum(length_of(json.loads((folder / op["folder"] / "path.json").read_text())) * op["copies"]
                for op in plan["operations"] if op["done"] and op["kind"] != "rough")

@@ -65,6 +65,8 @@ enum class ToolBody { kFlank, kShank, kHolder, kAxis };
 
 /// mm: accuracy of the clearance at single poses, which is for charts only and costs less like that.
 inline constexpr double kPoseClearanceMm = 0.01;
+/// So many poses of a path are looked at for them, about; the others get the lesser one of those to either side.
+inline constexpr std::size_t kMostShownPoses = 8000;
 
 struct ClearanceOptions {
   /// > 0: of the minimum over the motion. It counts against the tool, so lower it if a clearance is kept by little;
@@ -99,7 +101,8 @@ struct ClearanceFigure {
 struct ClearanceReport {
   std::vector<ClearanceFigure> figures;  ///< in the order of body, then role
   /// Least distance of any of these pairs but shank and target (which may touch) at every pose, by strip: for charts.
-  /// Infinite where there are no such pairs; above the truth by no more than kPoseClearanceMm or 2 percent of a depth.
+  /// Infinite where there are no such pairs; above the truth by no more than kPoseClearanceMm or 2 percent of a depth, in paths of no more than
+  /// kMostShownPoses poses.
   std::vector<std::vector<double>> pose_clearance_mm;
   std::vector<std::string> notes;  ///< caveats of the obstacles that the figures are about
   [[nodiscard]] bool kept() const;

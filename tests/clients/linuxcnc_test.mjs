@@ -7,7 +7,7 @@ import { dirname, join } from 'node:path';
 import { before, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { BINARY, flank, json, must, root, without } from './folder.mjs';
-import { fastest, forwardOf, header, interpret, machineOf, moving, poses, simulate, stated, toPart, whyNot } from './linuxcnc.mjs';
+import { fastTime, fastest, forwardOf, header, interpret, machineOf, moving, poses, simulate, stated, toPart, whyNot } from './linuxcnc.mjs';
 
 const why = BINARY ? whyNot() : 'FLANK_BINARY does not name the command';
 if (why) {
@@ -21,6 +21,7 @@ const SAME = 1e-4;            // mm and degrees: the interpreter prints four dec
 const GOLDEN = join(dirname(fileURLToPath(import.meta.url)), '../machine/nc/golden');
 const TOOL = { number: 3, length: 62.5 };  // of the golden programs
 const golden = (name) => readFileSync(join(GOLDEN, `${name}.txt`), 'utf8');
+const FAST = fastTime(root, 8);  // else the machines move in real time
 let count = 0;
 const fresh = () => join(root, `linuxcnc-${++count}`);
 
@@ -61,14 +62,14 @@ for (const [name, breakIt] of Object.entries(BROKEN))
 test('a path past a soft limit is reported with its joint', () => {
   const machine = machineOf('linuxcnc-xyzac-trt', ...XYZAC, TOOL);
   machine.joints[0].travel = [-5, 5];
-  const { outcome, messages } = simulate(fresh(), golden('linuxcnc_switched'), machine);
+  const { outcome, messages } = simulate(fresh(), golden('linuxcnc_switched'), machine, undefined, undefined, FAST);
   assert.equal(outcome, 'error');
   assert.match(messages.join('\n'), /joint 0|X/);
 });
 
 test('a golden program runs to its end through every point that it states', () => {
   const machine = machineOf('linuxcnc-xyzac-trt', ...XYZAC, TOOL);
-  const { outcome, messages, joints } = simulate(fresh(), golden('linuxcnc_switched').replace(/^G64.*$/m, 'G61'), machine);
+  const { outcome, messages, joints } = simulate(fresh(), golden('linuxcnc_switched').replace(/^G64.*$/m, 'G61'), machine, undefined, undefined, FAST);
   assert.equal(outcome, 'end', messages.join('\n'));
   const done = poses(moving(joints), forwardOf(machine));
   for (const [kind, x, y, z] of stated(golden('linuxcnc_switched')).filter((m) => m[0] === 'FEED'))
@@ -100,7 +101,7 @@ function expectAsPlanned(folder, name, [kinematics, pins], options = [], always 
   const text = readFileSync(file, 'utf8'), { setup, number, length, offset } = header(text);
   const tool = { number, length }, joints = name === 'joint-ac', machine = { ...machineOf(name, kinematics, pins, tool), always };
   expectSameMoves(text, tool);
-  const run = simulate(fresh(), text, joints ? { ...machine, kinematics: 'trivkins', pins: [] } : machine, joints ? [0, 0, 0] : setup.slice(0, 3));
+  const run = simulate(fresh(), text, joints ? { ...machine, kinematics: 'trivkins', pins: [] } : machine, joints ? [0, 0, 0] : setup.slice(0, 3), undefined, FAST);
   assert.equal(run.outcome, 'end', `${run.line}: ${run.messages.join('\n')}`);
   // From the first sample to the last: nothing jumps where kinematics or the tool's length are switched.
   const jump = fastest(run.joints, machine.joints);
@@ -184,7 +185,7 @@ test('two tools in one program, each at both turned halves of a pocket', { skip:
   assert.deepEqual(each.map((o) => [o.number, o.copy, o.copies]), [[1, 1, 2], [1, 2, 2], [2, 1, 2], [2, 2, 2]]);
   const tool = [each[0], each[2]].map(({ number, length }) => ({ number, length })), machine = machineOf(name, kinematics, pins, tool);
   expectSameMoves(text, tool);
-  const run = simulate(fresh(), text, machine, each[0].setup.slice(0, 3));
+  const run = simulate(fresh(), text, machine, each[0].setup.slice(0, 3), undefined, FAST);
   assert.equal(run.outcome, 'end', `${run.line}: ${run.messages.join('\n')}`);
   const jump = fastest(run.joints, machine.joints);
   assert.ok(jump.share <= MOST_OF_SPEED, `joint ${jump.joint} goes ${jump.share.toFixed(2)} times as far in a millisecond as it can, sample ${jump.row}`);

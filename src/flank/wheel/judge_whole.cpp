@@ -50,8 +50,8 @@ void describe(const CoverJob& job, const Setup& setup, Tool tool, Path path, Res
 
 /// What the verdict says of the tool's shank and holder, and the drawings.
 void measure_bodies_of(const Setup& setup, Result& result) {
-  const ClearanceScene scene = make_clearance_scene(setup, std::get<CoverJob>(result.job).obstacles,
-                                                    has_body(result.tool), result.notes);
+  const ClearanceScene scene =
+      make_clearance_scene(setup, std::get<CoverJob>(result.job).obstacles, has_body(result.tool), result.notes);
   measure_bodies(scene, result.tool, result.path, result.verify);
   add_caveats(result.verify, result.notes);
   auto drawings = std::make_shared<Result::Drawings>();

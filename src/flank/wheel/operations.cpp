@@ -29,6 +29,7 @@ constexpr double kFitSampleMm = 1.0;    ///< of the judge of one side: the whole
 constexpr double kFitSamples = 1000.0;  ///< that a small side has all the same
 constexpr double kTaperDeg = 12.0;      ///< of the tool that is made for a wheel
 constexpr double kCornerShare = 0.5;    ///< of what may be left, that the corners at the hub may take
+constexpr double kShankHeights = 2.0;   ///< of the tallest blade: the shank that a side's fit keeps clear of the wheel
 constexpr double kFilletShare = 0.97;   ///< of a root fillet's radius, that the tip has
 
 PartRequest part_request(const WheelWork& work, const Names& faces) {
@@ -67,6 +68,24 @@ std::string tool_spec(WheelWork& work) {
   return fmt::format("cone:radius={:.2f},angle={}", std::floor(tip_radius(work) * 20.0) / 20.0, kTaperDeg);
 }
 
+/// Whether a tool is given with a shank or a holder.
+bool brings_body(const std::string& spec) {
+  const ToolSpec tool = parse_tool_spec(spec);
+  return tool.tool && has_body(*tool.tool);
+}
+
+/// A shank that nobody has given is as thick as the flank ends in the fits, and gets its length when all passes are known (give_shanks).
+Tool without_chosen_shank(const std::string& spec, Tool tool) {
+  if (!brings_body(spec)) tool.shank.clear();
+  return tool;
+}
+
+double tallest_blade(const WheelWork& work) {
+  double height = 0.0;
+  for (const WheelBlade& blade : work.sector.blades) height = std::max(height, blade.height_mm);
+  return height;
+}
+
 /// Of the judge of a fit. A side of which a few samples would tell is judged more closely.
 double fit_spacing(WheelWork& work, const Names& side) {
   double spacing = std::max(kFitSampleMm, work.job.sample_mm.value_or(0.0));
@@ -81,9 +100,7 @@ FitJob side_job(WheelWork& work, const Names& side, const std::string& tool) {
   job.tolerance_mm = work.job.tolerance_mm;
   job.effort = work.job.effort;
   job.tool.spec = tool;
-  // The sides share one tool, whose shank is that of the whole wheel.
-  const ToolSpec spec = parse_tool_spec(tool);
-  if (!spec.tool || !has_body(*spec.tool)) job.obstacles.shank = "none";
+  if (!brings_body(tool)) job.obstacles.shank_length_mm = kShankHeights * tallest_blade(work);
   job.judge.reach_radius_mm = kOpenBall * work.job.tolerance_mm;
   job.judge.sample_mm = fit_spacing(work, side);
   return job;
@@ -151,7 +168,7 @@ Path fitted_sides(WheelWork& work, const std::string& spec, const Progress& prog
       continue;
     }
     if (!work.tool) {
-      work.tool = fit.tool;
+      work.tool = without_chosen_shank(spec, fit.tool);
       write_tool(*work.tool, tool_file(work));
     }
     for (Strip& strip : fit.path.strips) {
@@ -222,10 +239,7 @@ WheelOperation side_operation(WheelWork& work, const Progress& progress) {
     return judged_path(work, operation.faces, std::move(path), work.job.least_coverage, Care::kDraft);
   });
   if (!operation.done) return operation;
-  work.tool = read_tool(in_folder(work, operation.folder + "/tool.json"));
-  // A shank that was chosen at the end of an earlier run is chosen again at the end of this one.
-  const ToolSpec given = parse_tool_spec(spec);
-  if (!given.tool || !has_body(*given.tool)) work.tool->shank.clear();
+  work.tool = without_chosen_shank(spec, read_tool(in_folder(work, operation.folder + "/tool.json")));
   write_tool(*work.tool, in_folder(work, "tools/T1.json"));
   take(work, operation);
   return operation;

@@ -177,6 +177,7 @@ std::string plan_json(const WheelResult& result) {
   json["copies"] = result.copies;
   json["sectors"] = std::max(1, result.roles.count);
   json["whole"] = result.roles.whole;
+  if (result.hub_sectors > 0.0) json["hub_sectors"] = result.hub_sectors;
   if (result.roles.count > 0) json["pitch_deg"] = 360.0 / result.roles.count;
   json["most_engagement_deg"] = result.most_engagement_deg;
   if (!result.blank.empty()) json["blank"] = {{"file", "blank.stl"}, {"from", result.blank}};

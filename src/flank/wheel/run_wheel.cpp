@@ -115,7 +115,8 @@ WheelResult run_wheel(const WheelRequest& job, const Progress& progress) {
   };
   write_file((fs::path(job.folder) / "wheel.json").string(), wheel_json(result.roles));
   run(side_operation(work, progress.part(0.0, 0.4)));
-  result.copies = work.copies(), result.up = work.up(), result.notes = work.notes;
+  result.copies = work.copies(), result.hub_sectors = work.sectors_of_hub(), result.up = work.up(),
+  result.notes = work.notes;
   run(floor_operation(work, progress.part(0.4, 0.5)));
   progress.step("edges", 0.5);
   const auto has = [&](const auto& some) { return std::any_of(sector.blades.begin(), sector.blades.end(), some); };

@@ -46,7 +46,8 @@ struct RestPlace {
 struct WheelResult {
   WheelRoles roles;
   int copies = 0;
-  Vec3 up = Vec3::UnitZ();  ///< along the axis: to the spindle where the wheel is clamped
+  double hub_sectors = 0.0;  ///< so many of the wheel's sectors the part has of its hub
+  Vec3 up = Vec3::UnitZ();   ///< along the axis: to the spindle where the wheel is clamped
   std::vector<WheelOperation> operations;
   std::vector<WheelOperation> earlier;  ///< that an earlier run has finished, and this one has not come to yet
   std::vector<RoleFigures> figures;

@@ -289,6 +289,29 @@ TEST(ClearanceVerdict, SaysHowNearEveryPoseIs) {
   EXPECT_TRUE(std::isinf(touching.pose_clearance_mm[0][0])) << "shank and target alone are not asked";
 }
 
+TEST(ClearanceVerdict, OfALongPathSaysItOfSomePosesAndTheLesserOneOfThoseBetween) {
+  constexpr std::size_t kCount = 3 * kMostShownPoses;
+  Tool tool;
+  tool.radial = RadialFunction(ToolFamily::kCylinder, 20.0, Eigen::VectorXd::Constant(1, 4.0));
+  tool.shank = {{20.0, 6.0}, {50.0, 6.0}};
+  Path path;
+  path.strips.resize(1);
+  constexpr double kRise = 1e-3;  // mm a pose
+  for (std::size_t k = 0; k < kCount; ++k)
+    path.strips[0].poses.push_back({Vec3(0.0, 0.0, kRise * static_cast<double>(k)), Vec3::UnitZ()});
+  const std::vector<Obstacle> obstacles{{"vice", ObstacleRole::kFixture, square(200.0, -10.0), 0.0}};
+  const std::vector<double> poses = judge_clearance(tool, path, obstacles, {}).pose_clearance_mm[0];
+  ASSERT_EQ(poses.size(), kCount);
+  std::size_t told = 0;
+  for (std::size_t k = 0; k < kCount; ++k) {
+    const double truth = 6.0 + kRise * static_cast<double>(k);
+    ASSERT_LE(poses[k], truth + kPoseClearanceMm) << k;
+    ASSERT_GE(poses[k], truth - 4.0 * kRise) << k;
+    told += k == 0 || poses[k] != poses[k - 1] ? 1 : 0;
+  }
+  EXPECT_LT(told, kMostShownPoses + 4);
+}
+
 TEST(ClearanceVerdict, RefusesBadOptions) {
   ClearanceOptions options;
   options.accuracy_mm = 0.0;

@@ -159,9 +159,9 @@ TEST(PointPasses, TheAxisKeepsOutOfWhatStandsFarAboveTheFlank) {
   const std::vector<Strip> strips = point_passes(asked, channel.radial, options, "F1", "F2", "F3");
   EXPECT_GT(strips.size(), 5U);
   EXPECT_EQ(through(strips), 0);
-  // A rod has a radius: beside the bar there is no room either.
+  // A shank has a radius: beside the bar there is no room either.
+  const double rod = options.shank_mm = 0.5, beside = 0.5 * kWidth + kHalf;
   const TipRoom room(asked, channel.radial, options);
-  const double rod = kRodShare * kTip, beside = 0.5 * kWidth + kHalf;
   EXPECT_FALSE(room.is_free({Vec3(0.5 * kLength, beside + 0.9 * rod, 8.0), Vec3::UnitZ()}));
   EXPECT_TRUE(room.is_free({Vec3(0.5 * kLength, beside + 2.0 * rod + 0.02 * kUp, 8.0), Vec3::UnitZ()}));
 }

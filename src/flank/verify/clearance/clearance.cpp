@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -140,11 +141,38 @@ struct PosesOf {
   int count = 1;
 };
 
+constexpr double kLeftOut = std::numeric_limits<double>::quiet_NaN();
+
+/// All poses of a path, as far as nothing; of a long one every so many, and the last ones of its strips.
+std::vector<std::vector<double>> poses_to_show(const Path& path) {
+  const std::size_t every = 1 + path.pose_count() / kMostShownPoses;
+  std::vector<std::vector<double>> by_strip;
+  for (const Strip& strip : path.strips) {
+    std::vector<double>& poses = by_strip.emplace_back(strip.poses.size(), std::numeric_limits<double>::infinity());
+    for (std::size_t k = 0; k + 2 < poses.size(); ++k)
+      if (k % every != 0) poses[k] = kLeftOut;
+  }
+  return by_strip;
+}
+
+/// What was left out gets the lesser one of what is known to either side.
+void fill_left_out(std::vector<double>& poses) {
+  std::size_t before = 0;
+  for (std::size_t k = 1; k < poses.size(); ++k) {
+    if (std::isnan(poses[k])) continue;
+    const double least = std::min(poses[before], poses[k]);
+    std::fill(poses.begin() + static_cast<std::ptrdiff_t>(before) + 1, poses.begin() + static_cast<std::ptrdiff_t>(k),
+              least);
+    before = k;
+  }
+}
+
 std::vector<PosesOf> poses_of(const std::vector<Segment>& segments, std::vector<std::vector<double>>& by_strip) {
   std::vector<PosesOf> all;
   for (std::size_t k = 0; k < segments.size(); ++k) {
     std::vector<double>& poses = by_strip[static_cast<std::size_t>(segments[k].strip)];
     const auto first = static_cast<std::size_t>(segments[k].pose);
+    if (std::isnan(poses[first])) continue;
     const bool ends = k + 1 == segments.size() || segments[k + 1].strip != segments[k].strip;
     all.push_back({static_cast<int>(k), &poses[first],
                    static_cast<int>(std::min(poses.size() - first, std::size_t{ends ? 2u : 1u}))});
@@ -152,7 +180,7 @@ std::vector<PosesOf> poses_of(const std::vector<Segment>& segments, std::vector<
   return all;
 }
 
-/// Lowers the clearance of every pose to that of this pair.
+/// Lowers the clearance of every pose that is not left out to that of this pair.
 void lower_to(std::vector<std::vector<double>>& by_strip, const Pair& pair) {
   constexpr std::size_t kGrain = 16;  // segments per task; each is one query of a tree
   std::vector<PosesOf> open = poses_of(pair.segments, by_strip);
@@ -235,13 +263,13 @@ ClearanceReport judge_clearance(const Tool& tool, const Path& path, const Obstac
                                 const ClearanceOptions& options) {
   const Pairs pairs(tool, path, obstacles, options);
   ClearanceReport report;
-  for (const Strip& strip : path.strips)
-    report.pose_clearance_mm.emplace_back(strip.poses.size(), std::numeric_limits<double>::infinity());
+  report.pose_clearance_mm = poses_to_show(path);
   pairs.each([&](const Pair& pair) {
     report.figures.push_back(measure(pair, options, report.notes));
     if (!may_touch(pair.body.name, pair.role)) lower_to(report.pose_clearance_mm, pair);
     return true;
   });
+  for (std::vector<double>& poses : report.pose_clearance_mm) fill_left_out(poses);
   return report;
 }
 

@@ -11,7 +11,7 @@ double shank_radius(const Tool& tool) {
 }
 
 double rod_radius(double shank_mm, double reach_mm, RodRoom room) {
-  constexpr double kPlannedShare = 6e-3, kGuardedShare = 5e-3;  // of the reach
+  constexpr double kPlannedShare = 2e-3, kGuardedShare = -5e-4;  // of the reach
   return shank_mm + (room == RodRoom::kPlanned ? kPlannedShare : kGuardedShare) * reach_mm;
 }
 

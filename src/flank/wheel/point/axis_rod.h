@@ -9,7 +9,8 @@ namespace flank::internal {
 /// Radius of a tool's shank, mm: of its own, or, where it has none, as thick as the flank ends: no chosen shank is thicker.
 [[nodiscard]] double shank_radius(const Tool& tool);
 
-/// Paths are planned and held against the wheel with a rod that is thicker than the shank, the former with most: triangles are off their faces.
+/// Passes of the tip are planned with room beside the shank. What the triangles of the wheel may be off their faces decides nothing against a path
+/// that was planned on the faces themselves.
 enum class RodRoom { kPlanned, kGuarded };
 [[nodiscard]] double rod_radius(double shank_mm, double reach_mm, RodRoom room);
 
