@@ -92,6 +92,20 @@ test('the verdict is the exit code, and the report shows the whole', async () =>
   await keep(page, 'studio-wheel-result');
 });
 
+test('every operation has the shank that was chosen for all of them, and the whole is judged with it', async () => {
+  const [{ id, plan }] = (await studio.get('state')).jobs, folder = join(studio.folder, 'jobs', id, 'result');
+  const text = (...names) => readFileSync(join(folder, ...names), 'utf8');
+  const operations = (plan ?? (await studio.get(`jobs/${id}`)).plan).operations.filter(({ done }) => done);
+  const tools = JSON.parse(text('plan.json')).operations;
+  assert.ok(JSON.parse(text('tools', 'T1.json')).shank.profile.length >= 2);
+  for (const { id: number } of operations) {
+    const { folder: own, tool } = tools.find((one) => one.id === number);
+    assert.equal(text(own, 'tool.json'), text('tools', `${tool}.json`), number);
+  }
+  assert.equal(text('tool.json'), text('tools', 'T1.json'));
+  assert.ok(JSON.parse(text('verify.json')).clearance.some(({ body }) => body === 'shank'));
+});
+
 const MACHINE = 'linuxcnc-xyzac-trt';
 const outcome = () => page.value('document.querySelector(".outcome .pill").dataset.exit');
 /** Chooses machine, spindle and feed, and has the program written, although a check by samples alone proves nothing. */
