@@ -2,7 +2,7 @@
 import { spawnSync } from 'node:child_process';
 import { chmodSync, copyFileSync, existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { userInfo } from 'node:os';
-import { dirname, join } from 'node:path';
+import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { must } from './folder.mjs';
 
@@ -121,10 +121,10 @@ export function fastTime(folder, times) {
 
 /** Words before a command in which LinuxCNC's realtime program has a library loaded: a copy of it, as one with a set user id takes none. */
 function faster(folder, { times, library }, environment) {
-  const app = '/usr/bin/rtapi_app', copy = join(folder, 'rtapi_app');
+  const app = '/usr/bin/rtapi_app', copy = resolve(folder, 'rtapi_app');
   copyFileSync(app, copy);
   chmodSync(copy, 0o755);
-  Object.assign(environment, { LD_PRELOAD: library, FLANK_TIMES: `${times}` });
+  Object.assign(environment, { LD_PRELOAD: resolve(library), FLANK_TIMES: `${times}` });
   return ['unshare', '-m', 'sh', '-c', `mount --bind ${copy} ${app} && exec "$@"`, 'sh'];
 }
 
