@@ -98,7 +98,8 @@ TEST(Turning, WhatIsFartherApartThanTheWindowIsNoTurn) {
 /// An axis in the plane y = -1.8 - 0.18 z, moved along x and then turned about the z axis: a plane wall, then the cone that touches it.
 std::vector<Pose> plane_then_cone(double tip_radius, double end_radius, double length) {
   const Vec3 tip(0.0, -tip_radius, 0.0);
-  const Vec3 axis = (Vec3(0.0, -end_radius, std::sqrt(length * length - std::pow(end_radius - tip_radius, 2))) - tip) / length;
+  const Vec3 axis =
+      (Vec3(0.0, -end_radius, std::sqrt(length * length - std::pow(end_radius - tip_radius, 2))) - tip) / length;
   std::vector<Pose> poses;
   for (int k = -400; k < 0; ++k) poses.push_back({tip + Vec3(0.02 * k, 0.0, 0.0), axis});
   for (int k = 0; k <= 400; ++k) {
