@@ -156,14 +156,14 @@ export function logged(folder, machine) {
 const LOGGED = 1e-3;  // mm and degrees: digits of the log
 const apart = (a, b) => Math.max(...a.map((v, i) => Math.abs(v - b[i])));
 
-/** How long a run takes at feed, s: from where the last rapid before the first feed ends to where the last feed ends. `rows`: every millisecond what the
- * words of the program state. */
+/** How long a run takes from the end of the last rapid before its last feed to the end of that, s. `rows`: every millisecond what the words of the program
+ * state. */
 export function feedSeconds(rows, text, letters) {
-  const moves = stated(text, letters), first = moves.findIndex((m) => m[0] === 'FEED'), last = moves.findLast((m) => m[0] === 'FEED');
+  const moves = stated(text, letters), to = moves.findLastIndex((m) => m[0] === 'FEED'), from = moves.slice(0, to).findLastIndex((m) => m[0] !== 'FEED');
   const at = (move) => (row) => row.every((v, k) => move[k + 1] === null || Math.abs(v - move[k + 1]) < LOGGED);
-  let begin = rows.findIndex(at(moves[first - 1])), end = rows.findLastIndex(at(last));
-  while (begin >= 0 && at(moves[first - 1])(rows[begin + 1])) ++begin;
-  while (end > 0 && at(last)(rows[end - 1])) --end;
+  let begin = rows.findIndex(at(moves[from])), end = rows.findLastIndex(at(moves[to]));
+  while (begin >= 0 && at(moves[from])(rows[begin + 1])) ++begin;
+  while (end > 0 && at(moves[to])(rows[end - 1])) --end;
   return begin >= 0 && end > begin ? 1e-3 * (end - begin) : NaN;
 }
 
