@@ -111,11 +111,17 @@ TEST(CavityNotes, WithoutCyclesTheSidesAreTold) {
   CoverageEstimate sides;
   sides.at_tolerance = 0.784;
   sides.gouge_mm = 0.2341;
-  note_no_cycles(asked_for(), sides, notes);
-  ASSERT_EQ(notes.size(), 1u);
+  notes.push_back(no_cycles_sentence(asked_for(), sides, {NoCycles::kFarOff, 0.0, 2}));
   EXPECT_NE(notes.front().find("finish 78.4 % of both"), std::string::npos) << notes.front();
   EXPECT_NE(notes.front().find("by 0.2341 mm"), std::string::npos) << notes.front();
   EXPECT_NE(notes.front().find("95 % of the accessible area"), std::string::npos) << notes.front();
+}
+
+TEST(CavityNotes, WhyThereAreNoCyclesIsTold) {
+  const auto told = [](const WhyNoCycles& why) { return no_cycles_sentence(asked_for(), {}, why); };
+  EXPECT_NE(told({NoCycles::kFarOff, 0.0, 1}).find("deeper than four tolerances"), std::string::npos);
+  EXPECT_NE(told({NoCycles::kNarrow, 0.214, 1}).find("it is 0.21 diameters of the tool long"), std::string::npos);
+  EXPECT_NE(told({NoCycles::kEnded, 2.0, 5}).find("after the sides of 5 upper limits"), std::string::npos);
 }
 
 TEST(CavityNotes, FrontsThatDoNotGetIntoTheCavityAreTold) {

@@ -65,6 +65,17 @@ std::string rest_sentence(const TrochoidJob& job, const PlannedLayer& layer) {
       cleared, before, job.cycles.most_engagement_deg);
 }
 
+std::string no_cycles_clause(const WhyNoCycles& why) {
+  if (why.why == NoCycles::kFarOff)
+    return "no cycles make up for sides with less than half of the required share, or deeper than four tolerances";
+  if (why.why == NoCycles::kNarrow)
+    return fmt::format(
+        "where the way across is shortest it is {:.2f} diameters of the tool long, and the cycles would crawl",
+        why.way_across);
+  return fmt::format("the search ended after the sides of {} upper limit{} of the radius, before any cycle", why.tools,
+                     why.tools == 1 ? "" : "s");
+}
+
 /// Whether a looser request of coverage and tolerance is all that is missing.
 bool misses_by_figures(const Result& result, const Acceptance& acceptance) {
   const StockReport* stock = result.verify.stock ? &*result.verify.stock : nullptr;
@@ -104,12 +115,19 @@ void note_what_is_open(const TrochoidJob& job, const CavityProgram& program, std
   if (!program.layers.empty()) notes.push_back(ends_of(program));
 }
 
-void note_no_cycles(const TrochoidJob& job, const CoverageEstimate& sides, std::vector<std::string>& notes) {
-  notes.push_back(
-      fmt::format("no cycles were planned: the best passes along the sides finish {:.1f} % of both and gouge by {:.4f} "
-                  "mm, by the planner's samples; required: {:.4g} % of the accessible area, and {:.4g} mm",
-                  100.0 * sides.at_tolerance, std::max(sides.overcut_mm, sides.gouge_mm),
-                  100.0 * job.judge.least_coverage, *job.tolerance_mm));
+std::string why_not_done(const TrochoidJob& job, const PlannedLayer& layer) {
+  if (layer.cycles.status == CycleStatus::kDone) return {};
+  std::string why;
+  if (layer.cycles.status == CycleStatus::kStuck && !layer.no_way_in) why = stuck_sentence(job, layer.cycles) + "; ";
+  return why + rest_sentence(job, layer);
+}
+
+std::string no_cycles_sentence(const TrochoidJob& job, const CoverageEstimate& sides, const WhyNoCycles& why) {
+  return fmt::format(
+      "the best passes along the sides finish {:.1f} % of both and gouge by {:.4f} mm, by the planner's samples; "
+      "required: {:.4g} % of the accessible area, and {:.4g} mm; {}",
+      100.0 * sides.at_tolerance, std::max(sides.overcut_mm, sides.gouge_mm), 100.0 * job.judge.least_coverage,
+      *job.tolerance_mm, no_cycles_clause(why));
 }
 
 void note_own_reach(const TrochoidJob& job, const std::function<double()>& reach, Result& result) {

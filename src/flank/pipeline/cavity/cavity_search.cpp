@@ -316,6 +316,13 @@ bool wants_even_tool(const CavityPlan& plan, const CavityDemand& demand) {
          fills_reach(plan.sides, demand);
 }
 
+WhyNoCycles why_no_cycles(const CavityPlan& plan, const CavityDemand& demand) {
+  const FlankFitResult& fit = plan.sides.fit;
+  if (is_hopeless(plan.sides, demand)) return {NoCycles::kFarOff, 0.0, plan.tools};
+  const double way = least_way_across(fit.motions, fit.tool);
+  return {way < kLeastWay ? NoCycles::kNarrow : NoCycles::kEnded, way, plan.tools};
+}
+
 bool is_in_vain(int in_a_row, bool through) { return in_a_row >= (through ? 1 : 2); }
 
 std::vector<double> bounds_of(const TrochoidJob& job, const CavityWidth& width) {
@@ -362,6 +369,8 @@ CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const
   const auto replace = [&](CavityPlan plan) {
     if (rank(plan, demand) > rank(best, demand)) best = std::move(plan);
   };
+  // Sides that cover a hair without a cut say less than those that cover most.
+  if (best.program.layers.empty() && covered(uncut) > covered(best)) best = uncut;
   // Where no tool does it, the sides without cycles may be those that leave least.
   if (!meets(best, demand) && covered(uncut) > cleared(best) * covered(best) && !progress.stop())
     replace(planned(uncut.sides, search, uncut.largest_radius_mm));
