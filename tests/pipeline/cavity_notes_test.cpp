@@ -117,6 +117,18 @@ TEST(CavityNotes, WithoutCyclesTheSidesAreTold) {
   EXPECT_NE(notes.front().find("95 % of the accessible area"), std::string::npos) << notes.front();
 }
 
+TEST(CavityNotes, CancelledWhereTheyWereStuckTheyTellThat) {
+  PlannedLayer layer;
+  layer.cycles.status = CycleStatus::kCancelled;
+  layer.cycles.cycles.resize(5);
+  layer.share = 0.25;
+  EXPECT_EQ(why_not_done(asked_for(), layer).rfind("roughed and finished over 25.0 %", 0), 0u);
+  layer.cycles.stuck = {0.0121, 1.0699};
+  EXPECT_NE(why_not_done(asked_for(), layer).find("a step of 0.0121 mm with 61.30 degrees"), std::string::npos);
+  layer.cycles.status = CycleStatus::kDone;
+  EXPECT_TRUE(why_not_done(asked_for(), layer).empty());
+}
+
 TEST(CavityNotes, WhyThereAreNoCyclesIsTold) {
   const auto told = [](const WhyNoCycles& why) { return no_cycles_sentence(asked_for(), {}, why); };
   EXPECT_NE(told({NoCycles::kFarOff, 0.0, 1}).find("deeper than four tolerances"), std::string::npos);

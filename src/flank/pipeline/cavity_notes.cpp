@@ -39,6 +39,12 @@ std::string stuck_sentence(const TrochoidJob& job, const LayerCycles& cycles) {
       most, refused.step_mm, refused.largest_rad * kRadian, std::ceil(refused.largest_rad * kRadian + 0.5));
 }
 
+/// Some were cancelled while a way past the place where they were stuck was looked for.
+bool got_stuck(const LayerCycles& cycles) {
+  return cycles.status == CycleStatus::kStuck ||
+         (cycles.status == CycleStatus::kCancelled && cycles.stuck.largest_rad > 0.0);
+}
+
 /// Cycles go forward across the axis; where the sides lead along it they hardly do.
 std::string along_axis_sentence(const PlannedLayer& layer) {
   return fmt::format(
@@ -104,7 +110,7 @@ void note_what_is_open(const TrochoidJob& job, const CavityProgram& program, std
     if (layer.no_way_in)
       add(fmt::format("no {} between the sides is free of gouges: the layer cannot be entered",
                       job.cycles.entry == "plunge" ? "row of plunges" : "ramp"));
-    else if (layer.cycles.status == CycleStatus::kStuck)
+    else if (got_stuck(layer.cycles))
       add(stuck_sentence(job, layer.cycles));
     if (layer.stuck_along_axis()) add(along_axis_sentence(layer));
     if (layer.stuck_before_sides()) add(before_sides_sentence(layer));
@@ -118,7 +124,7 @@ void note_what_is_open(const TrochoidJob& job, const CavityProgram& program, std
 std::string why_not_done(const TrochoidJob& job, const PlannedLayer& layer) {
   if (layer.cycles.status == CycleStatus::kDone) return {};
   std::string why;
-  if (layer.cycles.status == CycleStatus::kStuck && !layer.no_way_in) why = stuck_sentence(job, layer.cycles) + "; ";
+  if (got_stuck(layer.cycles) && !layer.no_way_in) why = stuck_sentence(job, layer.cycles) + "; ";
   return why + rest_sentence(job, layer);
 }
 

@@ -333,6 +333,12 @@ LayerCycles CyclePlanner::run(const std::optional<FirstFront>& first, const Prog
   double farthest_x = -std::numeric_limits<double>::infinity();
   while (out.status == CycleStatus::kDone && !is_last(out)) {
     progress.step("cycles", std::clamp((now_.last.from_x + 2.0 * search_.radius()) / whole, 0.0, 1.0));
+    if (progress.stop() && now_.last.from_x <= farthest_x) {
+      // Taken back from where it got farthest, and not there again.
+      farthest.status = CycleStatus::kCancelled;
+      put_back(farthest);
+      return farthest;
+    }
     if (progress.stop()) out.status = CycleStatus::kCancelled;
     if (now_.last.from_x >= options_.most_share * sides_.from.length()) out.status = CycleStatus::kShort;
     if (out.status == CycleStatus::kShort && ends_at_wall(kBeforeWall, out)) {

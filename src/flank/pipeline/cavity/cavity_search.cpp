@@ -354,7 +354,9 @@ CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const
     const double most_uncut = covered(uncut);
     std::vector<CavityPlan> plans = plans_under(search, {bound, thinner, fewest});
     for (const CavityPlan& plan : plans)
-      if (plan.program.layers.empty() && covered(plan) > covered(uncut) && !is_narrow(plan.sides)) uncut = plan;
+      if (plan.program.layers.empty() && covered(plan) > covered(uncut) && !is_narrow(plan.sides) &&
+          check_legitimacy(plan.sides.fit.tool).legitimate)
+        uncut = plan;
     CavityPlan tried = best_of(plans, demand);
     // A tool that has hardly any way across got no cycles, and says nothing of thinner ones.
     const bool narrow = tried.program.layers.empty() && is_narrow(tried.sides);
