@@ -123,6 +123,8 @@ TEST(CavityNotes, CancelledWhereTheyWereStuckTheyTellThat) {
   layer.cycles.cycles.resize(5);
   layer.share = 0.25;
   EXPECT_EQ(why_not_done(asked_for(), layer).rfind("roughed and finished over 25.0 %", 0), 0u);
+  layer.cycles.ends_stuck = true;
+  EXPECT_EQ(why_not_done(asked_for(), layer).rfind("no step within 60 degrees of engagement is free of gouges", 0), 0u);
   layer.cycles.stuck = {0.0121, 1.0699};
   EXPECT_NE(why_not_done(asked_for(), layer).find("a step of 0.0121 mm with 61.30 degrees"), std::string::npos);
   layer.cycles.status = CycleStatus::kDone;

@@ -41,8 +41,7 @@ std::string stuck_sentence(const TrochoidJob& job, const LayerCycles& cycles) {
 
 /// Some were cancelled while a way past the place where they were stuck was looked for.
 bool got_stuck(const LayerCycles& cycles) {
-  return cycles.status == CycleStatus::kStuck ||
-         (cycles.status == CycleStatus::kCancelled && cycles.stuck.largest_rad > 0.0);
+  return cycles.status == CycleStatus::kStuck || (cycles.status == CycleStatus::kCancelled && cycles.ends_stuck);
 }
 
 /// Cycles go forward across the axis; where the sides lead along it they hardly do.

@@ -327,7 +327,7 @@ LayerCycles CyclePlanner::run(const std::optional<FirstFront>& first, const Prog
   if (first)
     begin_with(*first, out);
   else if (!accept_first(out))
-    out.status = CycleStatus::kStuck, out.stuck = now_.refused;
+    out.status = CycleStatus::kStuck, out.stuck = now_.refused, out.ends_stuck = true;
   out_ = std::max(2.0 * search_.radius(), -now_.last.from_x + 2.0 * search_.radius());
   const double whole = sides_.from.length() + 4.0 * search_.radius();
   double farthest_x = -std::numeric_limits<double>::infinity();
@@ -356,6 +356,7 @@ LayerCycles CyclePlanner::run(const std::optional<FirstFront>& first, const Prog
       farthest_x = now_.last.from_x;
       farthest = out;
       farthest.stuck = now_.refused;
+      farthest.ends_stuck = true;
     }
     if (rewind(out)) continue;
     farthest.status = ends_at_wall(kBeforeWall, farthest) ? CycleStatus::kDone : CycleStatus::kStuck;
@@ -383,6 +384,7 @@ void code(StepCodec& codec, LayerCycles& layer) {
   code(codec, layer.cycles);
   code(codec, layer.stuck);
   codec.number(layer.before_wall_mm);
+  code(codec, layer.ends_stuck);
 }
 
 double LayerCycles::entered_mm() const {
