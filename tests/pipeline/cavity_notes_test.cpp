@@ -122,7 +122,7 @@ TEST(CavityNotes, CancelledWhereTheyWereStuckTheyTellThat) {
   layer.cycles.status = CycleStatus::kCancelled;
   layer.cycles.cycles.resize(5);
   layer.share = 0.25;
-  EXPECT_EQ(why_not_done(asked_for(), layer).rfind("roughed and finished over 25.0 %", 0), 0u);
+  EXPECT_EQ(why_not_done(asked_for(), layer).rfind("the search ended there; roughed and finished over 25.0 %", 0), 0u);
   layer.cycles.ends_stuck = true;
   EXPECT_EQ(why_not_done(asked_for(), layer).rfind("no step within 60 degrees of engagement is free of gouges", 0), 0u);
   layer.cycles.stuck = {0.0121, 1.0699};

@@ -123,7 +123,10 @@ void note_what_is_open(const TrochoidJob& job, const CavityProgram& program, std
 std::string why_not_done(const TrochoidJob& job, const PlannedLayer& layer) {
   if (layer.cycles.status == CycleStatus::kDone) return {};
   std::string why;
-  if (got_stuck(layer.cycles) && !layer.no_way_in) why = stuck_sentence(job, layer.cycles) + "; ";
+  if (got_stuck(layer.cycles) && !layer.no_way_in)
+    why = stuck_sentence(job, layer.cycles) + "; ";
+  else if (layer.cycles.status == CycleStatus::kCancelled)
+    why = "the search ended there; ";
   return why + rest_sentence(job, layer);
 }
 
