@@ -97,6 +97,7 @@ struct CoverSummary {
 struct LayerSummary {
   int cycles = 0;
   std::string status;  ///< done, stuck, short (where the layer above got stuck), cancelled
+  std::string why;     ///< not done: what ended it, with its figure, and how far it got
   double fronts_mm = 0.0, backs_mm = 0.0, sides_mm = 0.0, links_mm = 0.0;
   double volume_mm3 = 0.0;  ///< removed by fronts and backs
   double side_volume_mm3 = 0.0;
@@ -122,6 +123,7 @@ struct TrochoidSummary {
   double narrowest_mm = 0.0;  ///< between the sides
   double minutes = 0.0;       ///< at the job's rates
   std::vector<LayerSummary> layers;
+  std::string no_cycles;                     ///< without layers: why, with the figures of the sides
   [[nodiscard]] double largest_deg() const;  ///< of fronts and backs
   [[nodiscard]] double way_mm() const;       ///< of entries, fronts, backs and sides
   [[nodiscard]] bool done() const;           ///< every layer is

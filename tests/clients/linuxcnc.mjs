@@ -162,7 +162,19 @@ export function logged(folder, machine) {
   return { ...JSON.parse(readFileSync(join(folder, 'result.json'), 'utf8')), joints: rows.map((row) => row.slice(0, count)), tools: rows.map((row) => row[count]) };
 }
 
+const LOGGED = 1e-3;  // mm and degrees: digits of the log
 const apart = (a, b) => Math.max(...a.map((v, i) => Math.abs(v - b[i])));
+
+/** How long a run takes from the end of the last rapid before its last feed to the end of that, s. `rows`: every millisecond what the words of the program
+ * state. */
+export function feedSeconds(rows, text, letters) {
+  const moves = stated(text, letters), to = moves.findLastIndex((m) => m[0] === 'FEED'), from = moves.slice(0, to).findLastIndex((m) => m[0] !== 'FEED');
+  const at = (move) => (row) => row.every((v, k) => move[k + 1] === null || Math.abs(v - move[k + 1]) < LOGGED);
+  let begin = rows.findIndex(at(moves[from])), end = rows.findLastIndex(at(moves[to]));
+  while (begin >= 0 && at(moves[from])(rows[begin + 1])) ++begin;
+  while (end > 0 && at(moves[to])(rows[end - 1])) --end;
+  return begin >= 0 && end > begin ? 1e-3 * (end - begin) : NaN;
+}
 
 /** The farthest that a joint goes in a millisecond, as a share of what its speed allows: { share, joint, row }. */
 export function fastest(rows, joints) {

@@ -7,7 +7,7 @@ import { dirname, join } from 'node:path';
 import { before, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { BINARY, flank, json, must, root, without } from './folder.mjs';
-import { fastTime, fastest, forwardOf, header, interpret, machineOf, moving, poses, simulate, stated, toPart, whyNot } from './linuxcnc.mjs';
+import { fastTime, fastest, feedSeconds, forwardOf, header, interpret, machineOf, moving, poses, simulate, stated, toPart, whyNot } from './linuxcnc.mjs';
 
 const why = BINARY ? whyNot() : 'FLANK_BINARY does not name the command';
 if (why) {
@@ -17,6 +17,7 @@ if (why) {
 
 const EXTRA_OVERCUT = 0.002;  // mm beyond the planned path's
 const MOST_OF_SPEED = 1.05;   // in a millisecond: the log's own ticks are not quite even
+const MOST_OFF_TIME = 0.02;   // of the time that was told
 const SAME = 1e-4;            // mm and degrees: the interpreter prints four decimals
 const GOLDEN = join(dirname(fileURLToPath(import.meta.url)), '../machine/nc/golden');
 const TOOL = { number: 3, length: 62.5 };  // of the golden programs
@@ -97,7 +98,7 @@ function judged(folder, name, rows) {
 /** Posts the folder's path for a machine, lets LinuxCNC run it, and compares what it cut with what was planned. */
 function expectAsPlanned(folder, name, [kinematics, pins], options = [], always = false) {
   const file = join(root, `program-${++count}.ngc`);
-  must('post', folder, '--machine', name, '--spindle', '8000', ...(options.includes('--feed') ? [] : ['--feed', '1000']), '-o', file, '--quiet', ...options);
+  const told = JSON.parse(must('post', folder, '--machine', name, '--spindle', '8000', ...(options.includes('--feed') ? [] : ['--feed', '1000']), '-o', file, '--json', ...options));
   const text = readFileSync(file, 'utf8'), { setup, number, length, offset } = header(text);
   const tool = { number, length }, joints = name === 'joint-ac', machine = { ...machineOf(name, kinematics, pins, tool), always };
   expectSameMoves(text, tool);
@@ -108,8 +109,12 @@ function expectAsPlanned(folder, name, [kinematics, pins], options = [], always 
   assert.ok(jump.share <= MOST_OF_SPEED, `joint ${jump.joint} goes ${jump.share.toFixed(2)} times as far in a millisecond as it can, sample ${jump.row}`);
   const rows = moving(run.joints), letters = machine.joints.map((j) => j.name).join('');
   // joint-ac counts its rotary axes the other way round.
-  const done = poses(joints ? rows.map(([x, y, z, a, c]) => [x, y, z, -a, -c]) : rows, forwardOf(machine));
-  const words = joints ? rows : done.map((p, i) => [...p.slice(0, 3).map((v, k) => v - setup[k]), ...rows[i].slice(3)]);
+  const posesOf = (some) => poses(joints ? some.map(([x, y, z, a, c]) => [x, y, z, -a, -c]) : some, forwardOf(machine));
+  const wordsOf = (some, where) => joints ? some : where.map((p, i) => [...p.slice(0, 3).map((v, k) => v - setup[k]), ...some[i].slice(3)]);
+  const done = posesOf(rows), words = wordsOf(rows, done);
+  const seconds = feedSeconds(wordsOf(run.joints, posesOf(run.joints)), text, letters), off = (60 * told.minutes) / seconds - 1;
+  console.log(`# ${name}: ${(60 * told.minutes).toFixed(2)} s told, ${seconds.toFixed(2)} s run, ${(100 * off).toFixed(2)} %`);
+  assert.ok(Math.abs(off) <= MOST_OFF_TIME, `told ${60 * told.minutes} s, run ${seconds} s`);
   const [first, last] = cutting(words, text, letters);
   const [planned, real] = judged(folder, `done-${count}`, done.slice(first, last + 1).map((p) => toPart(setup, offset, p)));
   const extra = real.overcut_mm - planned.overcut_mm, bound = real.overcut_bound_mm - planned.overcut_bound_mm;

@@ -43,6 +43,15 @@ TEST(ControlTime, OfAWayFromRestToRest) {
   EXPECT_NEAR(seconds[5], 0.2 + 5.0 / 400.0, 1e-12) << "the slower of two axes";
 }
 
+TEST(ControlTime, KeepsTheJerkOfEachAxis) {
+  Machine machine = read_machine("linuxcnc-xyzac-trt");
+  for (Joint& joint : machine.joints) joint.jerk = 40.0 * joint.acceleration;
+  const std::vector<double> seconds =
+      resting_seconds(machine, program_of({{{0, 0, 0, 0, 0}, 0.0}, {{10, 0, 0, 0, 0}, 0.1}, {{10, 0, 0, 6, 0}, 0.6}}));
+  EXPECT_NEAR(seconds[1], 0.1 + 100.0 / 3000.0 + 1.0 / 40.0, 1e-12);
+  EXPECT_NEAR(seconds[2], 0.6 + 10.0 / 400.0 + 1.0 / 40.0, 1e-12);
+}
+
 TEST(ControlTime, IsOfLinuxCncAlone) {
   const NcProgram program = program_of({{{0, 0, 0, 0, 0}, 0.0}});
   EXPECT_TRUE(rests_between_blocks(read_machine("linuxcnc-xyzac-trt"), program));

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <numbers>
 #include <sstream>
@@ -72,6 +73,27 @@ TEST(MachineFile, ReadsUnitsAndTheOrderOfTheChain) {
   EXPECT_EQ(machine.dialect.tcp_on, "M428");
   EXPECT_EQ(read_machine("fanuc-head-table-bc").nesting(), "head-table");
   EXPECT_EQ(read_machine("heidenhain-head-head-ca").nesting(), "head-head");
+}
+
+TEST(MachineFile, ReadsLimitsOfJerkAndTheTimeOfABlock) {
+  const std::string good = shipped_text("fanuc-ac");
+  EXPECT_TRUE(std::isinf(machine_from_toml(good, "m.toml").joints[0].jerk));
+  std::string text = replaced(good, "acceleration_deg_s2", "jerk_deg_s3 = 9000\nacceleration_deg_s2");
+  text = replaced(text, "acceleration_mm_s2", "jerk_mm_s3 = 50000\nacceleration_mm_s2");
+  text = replaced(text, "[control]", "[control]\nblock_time_ms = 1.5");
+  const Machine machine = machine_from_toml(text, "m.toml");
+  int limits = 0;
+  for (const Joint& joint : machine.joints) {
+    if (std::isinf(joint.jerk)) continue;
+    ++limits;
+    EXPECT_NEAR(in_units(joint, joint.jerk), joint.kind == JointKind::kRotary ? 9000.0 : 50000.0, 1e-6);
+  }
+  EXPECT_EQ(limits, 2);
+  EXPECT_DOUBLE_EQ(machine.block_time, 1.5e-3);
+  EXPECT_NE(machine_to_text(machine).find("jerk 5e+04 /s^3"), std::string::npos) << machine_to_text(machine);
+  EXPECT_NE(machine_to_json(machine).find("\"jerk\": 50000.0"), std::string::npos);
+  expect_refused(replaced(text, "jerk_mm_s3 = 50000", "jerk_mm_s3 = 0"), "jerk_mm_s3");
+  expect_refused(replaced(text, "block_time_ms = 1.5", "block_time_ms = -1"), "block_time_ms");
 }
 
 TEST(MachineFile, SaysLineAndColumnAndWhatWouldBeAccepted) {

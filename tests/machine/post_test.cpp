@@ -176,6 +176,24 @@ TEST(Post, ASmallerBoundTakesMoreBlocksAndALargerOneFewer) {
   }
 }
 
+TEST(Post, LimitsOfJerkAndTheTimeOfABlockCostTimeAndNothingElse) {
+  const Path path = paths::twisted(200);
+  Machine machine = read_machine("fanuc-ac");
+  const PostOptions options = options_at(Vec3(0, 0, 60));
+  const Post free = post(machine, path, kTool, options);
+  for (Joint& joint : machine.joints) joint.jerk = 20.0 * joint.acceleration;
+  const Post smooth = post(machine, path, kTool, options);
+  ASSERT_EQ(smooth.program.moves.size(), free.program.moves.size());
+  EXPECT_EQ(smooth.program.moves.back().position, free.program.moves.back().position);
+  // Each joint takes 50 ms to its largest acceleration.
+  EXPECT_GT(smooth.time_s, free.time_s + 0.005);
+  EXPECT_LT(smooth.time_s, 1.3 * free.time_s + 0.1);
+  machine.block_time = 2.0 * free.time_s / static_cast<double>(free.program.moves.size());
+  const Post slow = post(machine, path, kTool, options);
+  for (std::size_t i = 1; i < slow.trace.size(); ++i) EXPECT_LT(slow.trace[i].feed_mm_s, options.feed * (1.0 + 1e-6));
+  EXPECT_GT(slow.time_s, 1.5 * free.time_s);
+}
+
 /// CL points, and how far they pass the singular direction: at a point, or between two.
 constexpr std::pair<int, double> kAcross[] = {{41, 0.0},  {41, 1e-9}, {41, 1e-6}, {41, 1e-4}, {41, 1e-2}, {40, 0.0},
                                               {40, 1e-9}, {40, 1e-6}, {40, 1e-4}, {40, 4e-4}, {40, 1e-2}};

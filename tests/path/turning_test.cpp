@@ -95,6 +95,49 @@ TEST(Turning, WhatIsFartherApartThanTheWindowIsNoTurn) {
   EXPECT_NEAR(sharpest_turn(poses, kLength, 30.0).angle_rad, 80.0 * kDegree, 1e-9);
 }
 
+/// An axis in the plane y = -1.8 - 0.18 z, moved along x and then turned about the z axis: a plane wall, then the cone that touches it.
+std::vector<Pose> plane_then_cone(double tip_radius, double end_radius, double length) {
+  const Vec3 tip(0.0, -tip_radius, 0.0);
+  const Vec3 axis =
+      (Vec3(0.0, -end_radius, std::sqrt(length * length - std::pow(end_radius - tip_radius, 2))) - tip) / length;
+  std::vector<Pose> poses;
+  for (int k = -400; k < 0; ++k) poses.push_back({tip + Vec3(0.02 * k, 0.0, 0.0), axis});
+  for (int k = 0; k <= 400; ++k) {
+    const Eigen::AngleAxisd turn(0.004 * k, Vec3::UnitZ());
+    poses.push_back({turn * tip, turn * axis});
+  }
+  return poses;
+}
+
+TEST(Turning, AnAxisThatBeginsToTurnWhileAllItsPointsGoStraightOnHasNoKink) {
+  const double tip = 1.8, end = 4.6, length = 16.0, window = 0.7;
+  // As six numbers it changes from (1, 1) to (1.8, 4.6), by 24 degrees; each of its points goes from a line to a circle that touches it.
+  EXPECT_NEAR(sharpest_turn(plane_then_cone(tip, end, length), length, window).angle_rad, window / std::hypot(tip, end),
+              0.02);
+}
+
+TEST(Turning, TwoEndsThatChangeTheirPaceTurnWhatIsBetweenThem) {
+  std::vector<Pose> poses;
+  const auto add = [&](double x, double y) {
+    const Vec3 tip(x, 0.0, 0.0), end(0.0, y, kLength);
+    poses.push_back({tip, (end - tip).normalized()});
+  };
+  for (int k = -100; k < 0; ++k) add(0.01 * k, 0.01 * k);
+  for (int k = 0; k <= 100; ++k) add(0.01 * k, 0.03 * k);
+  EXPECT_NEAR(sharpest_turn(poses, kLength, 0.5).angle_rad, std::acos(4.0 / std::sqrt(20.0)), 0.01);
+}
+
+TEST(Turning, AnEndThatStopsDeadIsATurn) {
+  std::vector<Pose> poses;
+  const auto add = [&](double x, double y) {
+    const Vec3 tip(x, 0.0, 0.0), end(y, 0.0, kLength);
+    poses.push_back({tip, (end - tip).normalized()});
+  };
+  for (int k = -100; k < 0; ++k) add(0.01 * k, 0.0);
+  for (int k = 0; k <= 100; ++k) add(0.0, 0.01 * k);
+  EXPECT_NEAR(sharpest_turn(poses, kLength, 0.5).angle_rad, 0.5 * std::numbers::pi, 0.01);
+}
+
 TEST(Turning, APathWithoutAStepHasNone) {
   EXPECT_EQ(sharpest_turn(Path(), kLength, [](const Strip&) { return 1.0; }).angle_rad, 0.0);
   const std::vector<Pose> still(3, Pose{Vec3::Zero(), Vec3::UnitZ()});

@@ -111,11 +111,31 @@ TEST(CavityNotes, WithoutCyclesTheSidesAreTold) {
   CoverageEstimate sides;
   sides.at_tolerance = 0.784;
   sides.gouge_mm = 0.2341;
-  note_no_cycles(asked_for(), sides, notes);
-  ASSERT_EQ(notes.size(), 1u);
+  notes.push_back(no_cycles_sentence(asked_for(), sides, {NoCycles::kFarOff, 0.0, 2}));
   EXPECT_NE(notes.front().find("finish 78.4 % of both"), std::string::npos) << notes.front();
   EXPECT_NE(notes.front().find("by 0.2341 mm"), std::string::npos) << notes.front();
   EXPECT_NE(notes.front().find("95 % of the accessible area"), std::string::npos) << notes.front();
+}
+
+TEST(CavityNotes, CancelledWhereTheyWereStuckTheyTellThat) {
+  PlannedLayer layer;
+  layer.cycles.status = CycleStatus::kCancelled;
+  layer.cycles.cycles.resize(5);
+  layer.share = 0.25;
+  EXPECT_EQ(why_not_done(asked_for(), layer).rfind("the search ended there; roughed and finished over 25.0 %", 0), 0u);
+  layer.cycles.ends_stuck = true;
+  EXPECT_EQ(why_not_done(asked_for(), layer).rfind("no step within 60 degrees of engagement is free of gouges", 0), 0u);
+  layer.cycles.stuck = {0.0121, 1.0699};
+  EXPECT_NE(why_not_done(asked_for(), layer).find("a step of 0.0121 mm with 61.30 degrees"), std::string::npos);
+  layer.cycles.status = CycleStatus::kDone;
+  EXPECT_TRUE(why_not_done(asked_for(), layer).empty());
+}
+
+TEST(CavityNotes, WhyThereAreNoCyclesIsTold) {
+  const auto told = [](const WhyNoCycles& why) { return no_cycles_sentence(asked_for(), {}, why); };
+  EXPECT_NE(told({NoCycles::kFarOff, 0.0, 1}).find("deeper than four tolerances"), std::string::npos);
+  EXPECT_NE(told({NoCycles::kNarrow, 0.214, 1}).find("it is 0.21 diameters of the tool long"), std::string::npos);
+  EXPECT_NE(told({NoCycles::kEnded, 2.0, 5}).find("after the sides of 5 upper limits"), std::string::npos);
 }
 
 TEST(CavityNotes, FrontsThatDoNotGetIntoTheCavityAreTold) {

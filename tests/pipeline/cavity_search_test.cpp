@@ -238,6 +238,18 @@ TEST(CavitySearch, SidesWithoutCyclesAreNoBetterForEnteringNothing) {
   EXPECT_GT(rank(stuck, demand), rank(none, demand));
 }
 
+TEST(CavitySearch, SaysWhyThereAreNoCycles) {
+  const TrochoidJob job = job_for_most();
+  const CavityFaces faces = walled_blades();
+  const CavityDemand demand{job, faces};
+  EXPECT_EQ(why_no_cycles(uncut(0.01), demand).why, NoCycles::kFarOff);
+  CavityPlan plan = finished(0.9);
+  plan.tools = 3;
+  const WhyNoCycles why = why_no_cycles(plan, demand);
+  EXPECT_EQ(why.why, why.way_across < 0.3 ? NoCycles::kNarrow : NoCycles::kEnded);
+  EXPECT_EQ(why.tools, 3);
+}
+
 TEST(CavitySearch, EndsAtOnceWhereCyclesGetThroughAndAThinnerToolGainsNothing) {
   EXPECT_FALSE(is_in_vain(0, true));
   EXPECT_TRUE(is_in_vain(1, true));

@@ -171,6 +171,22 @@ TEST(AcceptCavity, EveryMotionIsHeldToTheLimitOfTheEngagement) {
   EXPECT_EQ(both.reasons[1].text, "layer 2 is stuck after 20 cycles");
 }
 
+TEST(AcceptCavity, AReasonSaysWhatEndedTheCyclesOrWhyThereAreNone) {
+  TrochoidSummary cavity = two_layers();
+  cavity.layers[1].status = "stuck";
+  cavity.layers[1].cycles = 81;
+  cavity.layers[1].why = "no step stays within 60 degrees of engagement";
+  Acceptance stuck, none;
+  accept_cavity(cavity, stuck);
+  ASSERT_EQ(stuck.reasons.size(), 1u);
+  EXPECT_EQ(stuck.reasons[0].text, "layer 2 is stuck after 81 cycles: no step stays within 60 degrees of engagement");
+  cavity.layers.clear();
+  cavity.no_cycles = "sides finish 76 %";
+  accept_cavity(cavity, none);
+  ASSERT_EQ(none.reasons.size(), 1u);
+  EXPECT_EQ(none.reasons[0].text, "no cycle was planned: sides finish 76 %");
+}
+
 TEST(AcceptStock, EveryKindOfStripIsHeldToTheLimitButForTheCells) {
   StockReport stock;
   stock.cell_mm = 0.1;

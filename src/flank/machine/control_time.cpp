@@ -1,37 +1,31 @@
 #include "flank/machine/control_time.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
+
+#include "flank/machine/feeds/s_curve.h"
 
 namespace flank::internal {
 namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
-/// Over a whole way: the least time of it by the speeds, and the largest acceleration, both of its share (1 is the whole).
-struct WayLimits {
-  double least_seconds = 0.0, acceleration = 1e300;
-};
-
+/// Of a whole way, by its share (1 is the whole): all axes of the program within their limits.
 WayLimits limits_of(const Machine& machine, const NcMove& from, const NcMove& to) {
   WayLimits limits;
-  const auto add = [&](double way, double speed, double acceleration) {
+  const auto add = [&](double way, const Joint& joint, double unit) {
     if (!(way > 0.0)) return;
-    limits.least_seconds = std::max(limits.least_seconds, way / speed);
-    limits.acceleration = std::min(limits.acceleration, acceleration / way);
+    limits.speed = std::min(limits.speed, unit * joint.speed / way);
+    limits.acceleration = std::min(limits.acceleration, unit * joint.acceleration / way);
+    limits.jerk = std::min(limits.jerk, unit * joint.jerk / way);
   };
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Joint& joint = machine.joints[machine.linear[k]];
-    add(std::abs(to.position(static_cast<int>(k)) - from.position(static_cast<int>(k))), joint.speed,
-        joint.acceleration);
-  }
-  for (std::size_t k = 0; k < 2; ++k) {
-    const Joint& joint = machine.rotary_joint(k);
-    add(std::abs(to.orientation(static_cast<int>(k)) - from.orientation(static_cast<int>(k))), kDegrees * joint.speed,
-        kDegrees * joint.acceleration);
-  }
+  for (std::size_t k = 0; k < 3; ++k)
+    add(std::abs(to.position(static_cast<int>(k)) - from.position(static_cast<int>(k))),
+        machine.joints[machine.linear[k]], 1.0);
+  for (std::size_t k = 0; k < 2; ++k)
+    add(std::abs(to.orientation(static_cast<int>(k)) - from.orientation(static_cast<int>(k))), machine.rotary_joint(k),
+        kDegrees);
   return limits;
 }
 
@@ -53,12 +47,9 @@ std::vector<double> resting_seconds(const Machine& machine, const NcProgram& pro
   for (std::size_t i = 1; i < program.moves.size(); ++i) {
     const NcMove &from = program.moves[i - 1], &to = program.moves[i];
     if (to.kind == NcKind::kRapid || !(to.feed > 0.0)) continue;
-    const WayLimits limits = limits_of(machine, from, to);
-    const double cruise = std::max(stated_seconds(program, from, to), limits.least_seconds);
-    // The whole way at the cruising speed 1 / cruise needs 1 / (cruise a) more for its two ramps; where these would be longer than the
-    // way, half of it speeds up and half slows down.
-    const double ramps = 1.0 / (cruise * limits.acceleration);
-    seconds[i] = ramps <= cruise ? cruise + ramps : 2.0 / std::sqrt(limits.acceleration);
+    WayLimits limits = limits_of(machine, from, to);
+    limits.speed = std::min(limits.speed, 1.0 / stated_seconds(program, from, to));
+    if (std::isfinite(limits.acceleration)) seconds[i] = seconds_from_rest_to_rest(1.0, limits);
   }
   return seconds;
 }

@@ -12,8 +12,8 @@ namespace flank::internal {
 /// (G64 P) nearly so.
 [[nodiscard]] bool rests_between_blocks(const Machine& machine, const NcProgram& program);
 
-/// Of each move the time of a way from rest to rest, s: at the speed of its feed where there is room, each axis of the program within its speed and
-/// acceleration (those of the machine's joint of that name). 0 for rapids. Of programs with axes, not vectors.
+/// Of each move the time of a way from rest to rest, s: at the speed of its feed where there is room, each axis of the program within its speed,
+/// acceleration and jerk (those of the machine's joint of that name). 0 for rapids. Of programs with axes, not vectors.
 [[nodiscard]] std::vector<double> resting_seconds(const Machine& machine, const NcProgram& program);
 
 }  // namespace flank::internal

@@ -9,7 +9,7 @@
 #include "flank/error.h"
 #include "flank/machine/control_time.h"
 #include "flank/machine/engagement_feed.h"
-#include "flank/machine/feed.h"
+#include "flank/machine/feeds/feed.h"
 #include "flank/machine/links.h"
 #include "flank/machine/nc/write/timed_blocks.h"
 #include "flank/path/joined_pose.h"
@@ -151,9 +151,11 @@ class Poster {
   /// The nodes of block i of a strip, its beginning left out.
   void add_block(std::size_t strip, const std::vector<double>& ways, std::size_t i, bool at_end) {
     const BlockEnd &from = strips_[strip].blocks[i - 1], &to = strips_[strip].blocks[i];
-    const double cap = cap_of(strip, i);
     const RotaryValues a = kinematics_.rotary_of(from.joints), b = kinematics_.rotary_of(to.joints);
     const double turn = std::abs(b[0] - a[0]) + std::abs(b[1] - a[1]), way = contact_way(from.pose, to.pose);
+    // A control that needs longer for a block than its way takes would wait at its end.
+    const double cap = machine_.block_time > 0.0 && way > 0.0 ? std::min(cap_of(strip, i), way / machine_.block_time)
+                                                              : cap_of(strip, i);
     const double wanted = std::ceil(std::max(way / kFeedStepMm, turn / kFeedStepRad));
     // The first and the last block begin and end at rest: with few nodes there, the planner, whose speed is 0 at a
     // node, would take them far too slowly.

@@ -23,6 +23,21 @@ using Vec6 = Eigen::Matrix<double, 6, 1>;
 /// Of two unit vectors, to all digits also where they are nearly alike or opposed.
 double angle_between(const Vec6& a, const Vec6& b) { return 2.0 * std::atan2((a - b).norm(), (a + b).norm()); }
 
+/// The largest angle by which a point of the axis changes its direction. What touches the face beside a point depends on the direction of its
+/// velocity alone, not on its speed: where no direction jumps, nothing marks the face, however the speeds change.
+double turn_of_points(const Vec6& a, const Vec6& b) {
+  constexpr int kPoints = 8;
+  constexpr double kStill = 1e-6;  // of the motion's own speed: a point that is as slow has no direction
+  double largest = 0.0;
+  for (int k = 0; k <= kPoints; ++k) {
+    const double s = static_cast<double>(k) / kPoints;
+    const Vec3 before = (1.0 - s) * a.head<3>() + s * a.tail<3>(), after = (1.0 - s) * b.head<3>() + s * b.tail<3>();
+    if (before.norm() < kStill || after.norm() < kStill) return std::numbers::pi;
+    largest = std::max(largest, std::atan2(before.cross(after).norm(), before.dot(after)));
+  }
+  return largest;
+}
+
 Vec6 ends_of(const Pose& pose, double axis_length) {
   Vec6 ends;
   ends << pose.tip, pose.at(axis_length);
@@ -64,16 +79,18 @@ double turn_window(double diagonal_mm) { return std::numbers::sqrt2 * kTurnStret
 
 Turning sharpest_turn(std::span<const Pose> poses, double axis_length, double window_mm) {
   const std::vector<Chord> chords = chords_of(poses, axis_length, kChordShare * window_mm);
-  double least = 1.0;  // cosine
+  double least = 1.0;  // cosine of the sharpest one
   Turning sharpest;
   std::size_t first = 0;
   for (std::size_t i = 0; i < chords.size(); ++i) {
     while (chords[i].at_mm - chords[first].at_mm > window_mm) ++first;
     for (std::size_t k = first; k < i; ++k) {
-      const double cosine = chords[i].direction.dot(chords[k].direction);
-      if (cosine >= least) continue;
-      least = cosine;
-      sharpest = {angle_between(chords[i].direction, chords[k].direction), 0, chords[i].pose, chords[k].pose};
+      const Vec6 &from = chords[k].direction, &to = chords[i].direction;
+      if (from.dot(to) >= least) continue;
+      const double angle = std::min(angle_between(from, to), turn_of_points(from, to));
+      if (angle <= sharpest.angle_rad) continue;
+      least = std::cos(angle);
+      sharpest = {angle, 0, chords[i].pose, chords[k].pose};
     }
   }
   return sharpest;

@@ -39,6 +39,11 @@ std::string stuck_sentence(const TrochoidJob& job, const LayerCycles& cycles) {
       most, refused.step_mm, refused.largest_rad * kRadian, std::ceil(refused.largest_rad * kRadian + 0.5));
 }
 
+/// Some were cancelled while a way past the place where they were stuck was looked for.
+bool got_stuck(const LayerCycles& cycles) {
+  return cycles.status == CycleStatus::kStuck || (cycles.status == CycleStatus::kCancelled && cycles.ends_stuck);
+}
+
 /// Cycles go forward across the axis; where the sides lead along it they hardly do.
 std::string along_axis_sentence(const PlannedLayer& layer) {
   return fmt::format(
@@ -63,6 +68,17 @@ std::string rest_sentence(const TrochoidJob& job, const PlannedLayer& layer) {
       "the wall allows, because nearer to it a step is too thin to be measured, or exceeds {} degrees of engagement in "
       "the corners",
       cleared, before, job.cycles.most_engagement_deg);
+}
+
+std::string no_cycles_clause(const WhyNoCycles& why) {
+  if (why.why == NoCycles::kFarOff)
+    return "no cycles make up for sides with less than half of the required share, or deeper than four tolerances";
+  if (why.why == NoCycles::kNarrow)
+    return fmt::format(
+        "where the way across is shortest it is {:.2f} diameters of the tool long, and the cycles would crawl",
+        why.way_across);
+  return fmt::format("the search ended after the sides of {} upper limit{} of the radius, before any cycle", why.tools,
+                     why.tools == 1 ? "" : "s");
 }
 
 /// Whether a looser request of coverage and tolerance is all that is missing.
@@ -93,7 +109,7 @@ void note_what_is_open(const TrochoidJob& job, const CavityProgram& program, std
     if (layer.no_way_in)
       add(fmt::format("no {} between the sides is free of gouges: the layer cannot be entered",
                       job.cycles.entry == "plunge" ? "row of plunges" : "ramp"));
-    else if (layer.cycles.status == CycleStatus::kStuck)
+    else if (got_stuck(layer.cycles))
       add(stuck_sentence(job, layer.cycles));
     if (layer.stuck_along_axis()) add(along_axis_sentence(layer));
     if (layer.stuck_before_sides()) add(before_sides_sentence(layer));
@@ -104,12 +120,22 @@ void note_what_is_open(const TrochoidJob& job, const CavityProgram& program, std
   if (!program.layers.empty()) notes.push_back(ends_of(program));
 }
 
-void note_no_cycles(const TrochoidJob& job, const CoverageEstimate& sides, std::vector<std::string>& notes) {
-  notes.push_back(
-      fmt::format("no cycles were planned: the best passes along the sides finish {:.1f} % of both and gouge by {:.4f} "
-                  "mm, by the planner's samples; required: {:.4g} % of the accessible area, and {:.4g} mm",
-                  100.0 * sides.at_tolerance, std::max(sides.overcut_mm, sides.gouge_mm),
-                  100.0 * job.judge.least_coverage, *job.tolerance_mm));
+std::string why_not_done(const TrochoidJob& job, const PlannedLayer& layer) {
+  if (layer.cycles.status == CycleStatus::kDone) return {};
+  std::string why;
+  if (got_stuck(layer.cycles) && !layer.no_way_in)
+    why = stuck_sentence(job, layer.cycles) + "; ";
+  else if (layer.cycles.status == CycleStatus::kCancelled)
+    why = "the search ended there; ";
+  return why + rest_sentence(job, layer);
+}
+
+std::string no_cycles_sentence(const TrochoidJob& job, const CoverageEstimate& sides, const WhyNoCycles& why) {
+  return fmt::format(
+      "the best passes along the sides finish {:.1f} % of both and gouge by {:.4f} mm, by the planner's samples; "
+      "required: {:.4g} % of the accessible area, and {:.4g} mm; {}",
+      100.0 * sides.at_tolerance, std::max(sides.overcut_mm, sides.gouge_mm), 100.0 * job.judge.least_coverage,
+      *job.tolerance_mm, no_cycles_clause(why));
 }
 
 void note_own_reach(const TrochoidJob& job, const std::function<double()>& reach, Result& result) {

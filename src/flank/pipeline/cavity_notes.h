@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "flank/fit.h"
+#include "flank/pipeline/cavity/cavity_search.h"
 #include "flank/run.h"
 #include "flank/trochoid/program.h"
 
@@ -14,8 +15,12 @@ namespace flank::internal {
 /// Where cycles got stuck or entered a face, what they left, and at which ends the cavity is open. Of a job with a tolerance, as below.
 void note_what_is_open(const TrochoidJob& job, const CavityProgram& program, std::vector<std::string>& notes);
 
-/// Where a search left no cycles: what its best sides cover, by the planner's samples, and how deep they cut or enter faces.
-void note_no_cycles(const TrochoidJob& job, const CoverageEstimate& sides, std::vector<std::string>& notes);
+/// Of a layer that is not done: what ended it, and how far it got.
+[[nodiscard]] std::string why_not_done(const TrochoidJob& job, const PlannedLayer& layer);
+
+/// Of a plan without cycles: what its sides do, what is required, and why there are none.
+[[nodiscard]] std::string no_cycles_sentence(const TrochoidJob& job, const CoverageEstimate& sides,
+                                             const WhyNoCycles& why);
 
 /// Where coverage is what misses, and other faces keep the tool's thicker places off: so much of what it can reach with the radius
 /// that it has there is covered. `reach` gives the share of both sides, as a ball of the least radius has it in the report: it is

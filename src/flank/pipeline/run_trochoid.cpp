@@ -192,6 +192,7 @@ TrochoidSummary summary_of(const TrochoidJob& job, const SideFit& sides, const C
   double links = 0.0;
   for (const PlannedLayer& layer : program.layers) {
     out.layers.push_back(summary_of(layer));
+    out.layers.back().why = why_not_done(job, layer);
     links += layer.links_mm;
   }
   out.minutes = out.way_mm() / job.cycles.feed_mm_min + links / job.cycles.rapid_mm_min;
@@ -215,13 +216,15 @@ void take(const CavityPlan& plan, const TrochoidJob& job, const ToolSpec& spec, 
     take_clear_shank(scene, part, spec.free ? job.radius.slenderness_max : 1e300,
                      std::get<TrochoidJob>(result.job).obstacles, result);
   result.chord_bound_mm = plan.program.chord_bound_mm;
-  result.plan = summary_of(job, plan.sides, plan.program, faces.width.narrowest_mm);
+  TrochoidSummary summary = summary_of(job, plan.sides, plan.program, faces.width.narrowest_mm);
+  if (plan.program.layers.empty() && legitimacy.legitimate)
+    summary.no_cycles = no_cycles_sentence(job, fit.after, why_no_cycles(plan, {job, faces}));
+  result.plan = std::move(summary);
   if (plan.tools > 1)
     result.notes.push_back(
         fmt::format("{} upper limits of the radius were tried, from thick to thin; this tool was found with {:.4g} mm",
                     plan.tools, plan.largest_radius_mm));
   note_what_is_open(job, plan.program, result.notes);
-  if (plan.program.layers.empty() && legitimacy.legitimate) note_no_cycles(job, fit.after, result.notes);
 }
 
 /// How much a search does (base/work_count.h), by the word of the job.

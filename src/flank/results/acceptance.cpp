@@ -295,6 +295,7 @@ void accept_bends(const PlanJob& job, const BendRadii& bends, Acceptance& accept
 }
 
 void accept_cavity(const TrochoidSummary& cavity, Acceptance& acceptance) {
+  const auto with_colon = [](const std::string& why) { return why.empty() ? why : ": " + why; };
   constexpr double kSpareDeg = 1e-6;  // rounding of a limit that cycles are made to reach
   if (cavity.largest_deg() > cavity.most_engagement_deg + kSpareDeg)
     add_reason(acceptance, Figure::kEngagement,
@@ -307,10 +308,11 @@ void accept_cavity(const TrochoidSummary& cavity, Acceptance& acceptance) {
   // A layer that ended early has a good engagement in what it has, and leaves the rest.
   for (std::size_t k = 0; k < cavity.layers.size(); ++k)
     if (cavity.layers[k].status != "done")
-      add_reason(
-          acceptance, Figure::kCycles,
-          fmt::format("layer {} is {} after {} cycles", k + 1, cavity.layers[k].status, cavity.layers[k].cycles));
-  if (cavity.layers.empty()) add_reason(acceptance, Figure::kCycles, "no cycle was planned");
+      add_reason(acceptance, Figure::kCycles,
+                 fmt::format("layer {} is {} after {} cycles{}", k + 1, cavity.layers[k].status,
+                             cavity.layers[k].cycles, with_colon(cavity.layers[k].why)));
+  if (cavity.layers.empty())
+    add_reason(acceptance, Figure::kCycles, "no cycle was planned" + with_colon(cavity.no_cycles));
 }
 
 std::string reason_lines(const Acceptance& acceptance) {

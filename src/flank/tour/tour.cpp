@@ -131,61 +131,6 @@ TourStretch roll(const WallLine& from, const WallLine& to, const StraightFlank& 
   };
 }
 
-/// How much faster the upper end of the lines of a ruled wall goes than the lower one, at its first or last line: the difference of the
-/// axis' speeds there as a share of their mean.
-double spread_at(const Wall& wall, bool last, const StraightFlank& flank, double foot_s) {
-  constexpr double kStep = 1e-3;
-  const WallLine first = wall.first({}), end = wall.last({});
-  const WallLine a = last ? end : first, b = wall.between(first, end, last ? 1.0 - kStep : kStep);
-  const Pose p = laid_against(a, flank, foot_s), q = laid_against(b, flank, foot_s);
-  const double head_s = foot_s + flank.axis_over(a.length());
-  const double foot = (p.at(foot_s) - q.at(foot_s)).norm(), head = (p.at(head_s) - q.at(head_s)).norm();
-  return 2.0 * (head - foot) / (head + foot);
-}
-
-/// Beside a smooth joint: the lines of a plane lean over a way of `ease` mm, so that both ends of the axis come to it as fast as they go
-/// on. The flank stays on the plane, and the tip at its height; without it the tool begins to turn at once.
-struct Ease {
-  double way_mm = 0.0, spread = 0.0;
-  /// By how much the head is ahead of the foot, mm, at this distance before the joint.
-  [[nodiscard]] double ahead(double before_mm) const {
-    if (way_mm <= 0.0 || before_mm >= way_mm) return 0.0;
-    const double w = 1.0 - before_mm / way_mm;
-    return spread * way_mm * w * w * (w - 1.0);
-  }
-};
-
-Ease ease_at(const WallsInRow& row, std::size_t i, bool last, const StraightFlank& flank, double foot_s,
-             double room_mm) {
-  constexpr double kMostOfRoom = 0.45;
-  const Corner corner = last ? row.corners[i] : row.before(i);
-  const std::size_t other = last ? row.next(i) : (i > 0 ? i - 1 : row.walls.size() - 1);
-  if (corner != Corner::kSmooth || row.walls[other].flat()) return {};
-  return {std::min(flank.radius, kMostOfRoom * room_mm), spread_at(row.walls[other], !last, flank, foot_s)};
-}
-
-/// From one key of a plane to the next, in parts where an end is eased.
-void add_eased(const WallLine& a, const WallLine& b, const Ease& begin, const Ease& end, const Wall* wall,
-               const StraightFlank& flank, Run& run) {
-  const double way = 0.5 * (b.foot + b.head - a.foot - a.head).norm();
-  const Vec3 x = (b.foot + b.head - a.foot - a.head).normalized();
-  std::vector<double> parts{0.0};
-  if (begin.way_mm > 0.0) parts.push_back(begin.way_mm / way);
-  if (end.way_mm > 0.0) parts.push_back(1.0 - end.way_mm / way);
-  parts.push_back(1.0);
-  for (std::size_t k = 0; k + 1 < parts.size(); ++k)
-    run.stretches.push_back([=, from = parts[k], to = parts[k + 1]](double share, double s) {
-      const double at = from + share * (to - from);
-      WallLine line = wall->between(a, b, at);
-      const double ahead = end.ahead((1.0 - at) * way) - begin.ahead(at * way);
-      const Vec3 upright = line.direction();
-      line.foot -= 0.5 * ahead * x;
-      line.head += 0.5 * ahead * x;
-      // As far up the plane as before: along the line that leans the tip would sink into what lies below.
-      return laid_against(line, flank, s / upright.dot(line.direction()));
-    });
-}
-
 /// Wall i from end to end. False: it has no room.
 bool add_wall(const WallsInRow& row, std::size_t i, const StraightFlank& flank, double foot_s, const TourScene& scene,
               Run& run) {
@@ -197,13 +142,10 @@ bool add_wall(const WallsInRow& row, std::size_t i, const StraightFlank& flank, 
   const Vec3 way = keys.back().foot + keys.back().head - keys.front().foot - keys.front().head;
   const WallLine first = wall->first({}), last = wall->last({});
   if (way.dot(last.foot + last.head - first.foot - first.head) <= 0.0 && wall->flat()) return false;
-  for (std::size_t k = 0; k + 1 < keys.size(); ++k) {
-    const double room = 0.5 * (keys[k + 1].foot + keys[k + 1].head - keys[k].foot - keys[k].head).norm();
-    Ease at_begin, at_end;
-    if (scene.eased && wall->flat() && k == 0) at_begin = ease_at(row, i, false, flank, foot_s, room);
-    if (scene.eased && wall->flat() && k + 2 == keys.size()) at_end = ease_at(row, i, true, flank, foot_s, room);
-    add_eased(keys[k], keys[k + 1], at_begin, at_end, wall, flank, run);
-  }
+  for (std::size_t k = 0; k + 1 < keys.size(); ++k)
+    run.stretches.push_back([wall, a = keys[k], b = keys[k + 1], flank](double share, double s) {
+      return laid_against(wall->between(a, b, share), flank, s);
+    });
   return true;
 }
 
@@ -300,7 +242,7 @@ std::optional<Tour> make_tour(const TourRequest& request) {
   if (!flank) return {};
   std::optional<WallsInRow> row = oriented_row(faces, *chain, *flank, request);
   if (!row) return {};
-  const TourScene scene{request.obstacles, request.tolerance_mm, request.eased, request.allowance_mm};
+  const TourScene scene{request.obstacles, request.tolerance_mm, request.allowance_mm};
   look_at_corners(*flank, 0.0, request.tolerance_mm, *row);
   const std::optional<double> lowest = lowest_foot(*row, *flank, scene);
   if (!lowest) return {};

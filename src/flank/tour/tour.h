@@ -24,9 +24,6 @@ struct TourRequest {
   std::function<bool(const Vec3& from, const Vec3& direction)> is_free_line;
   double tolerance_mm = 0.01;
   double allowance_mm = 0.0;  ///< left on the walls; of the obstacles it is part of their clearance
-  /// On planes beside round walls the axis leans a little, so that it begins and ends to turn without a jump of its speed. Else it stands
-  /// still on planes.
-  bool eased = false;
 };
 
 struct Tour {

@@ -31,11 +31,10 @@ struct WallsInRow {
   [[nodiscard]] std::size_t next(std::size_t i) const { return i + 1 < walls.size() ? i + 1 : 0; }
 };
 
-/// What a pose must keep clear of, and how a tour goes.
+/// What a pose must keep clear of.
 struct TourScene {
   const ObstacleField* obstacles = nullptr;
   double tolerance_mm = 0.01;
-  bool eased = false;         ///< as TourRequest has it
   double allowance_mm = 0.0;  ///< by which the flank is thicker than the tool: the obstacles know of it
 };
 

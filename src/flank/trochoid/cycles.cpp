@@ -327,12 +327,18 @@ LayerCycles CyclePlanner::run(const std::optional<FirstFront>& first, const Prog
   if (first)
     begin_with(*first, out);
   else if (!accept_first(out))
-    out.status = CycleStatus::kStuck, out.stuck = now_.refused;
+    out.status = CycleStatus::kStuck, out.stuck = now_.refused, out.ends_stuck = true;
   out_ = std::max(2.0 * search_.radius(), -now_.last.from_x + 2.0 * search_.radius());
   const double whole = sides_.from.length() + 4.0 * search_.radius();
   double farthest_x = -std::numeric_limits<double>::infinity();
   while (out.status == CycleStatus::kDone && !is_last(out)) {
     progress.step("cycles", std::clamp((now_.last.from_x + 2.0 * search_.radius()) / whole, 0.0, 1.0));
+    if (progress.stop() && now_.last.from_x <= farthest_x) {
+      // Taken back from where it got farthest, and not there again.
+      farthest.status = CycleStatus::kCancelled;
+      put_back(farthest);
+      return farthest;
+    }
     if (progress.stop()) out.status = CycleStatus::kCancelled;
     if (now_.last.from_x >= options_.most_share * sides_.from.length()) out.status = CycleStatus::kShort;
     if (out.status == CycleStatus::kShort && ends_at_wall(kBeforeWall, out)) {
@@ -350,6 +356,7 @@ LayerCycles CyclePlanner::run(const std::optional<FirstFront>& first, const Prog
       farthest_x = now_.last.from_x;
       farthest = out;
       farthest.stuck = now_.refused;
+      farthest.ends_stuck = true;
     }
     if (rewind(out)) continue;
     farthest.status = ends_at_wall(kBeforeWall, farthest) ? CycleStatus::kDone : CycleStatus::kStuck;
@@ -377,6 +384,7 @@ void code(StepCodec& codec, LayerCycles& layer) {
   code(codec, layer.cycles);
   code(codec, layer.stuck);
   codec.number(layer.before_wall_mm);
+  code(codec, layer.ends_stuck);
 }
 
 double LayerCycles::entered_mm() const {

@@ -38,6 +38,8 @@ struct LayerCycles {
   CycleStatus status = CycleStatus::kDone;
   std::vector<Cycle> cycles;
   LeastRejectedStep stuck;  ///< if it is stuck: of the steps that were tried, the one that exceeds the limit least
+  /// No step was found at its end; also where the search was cancelled while it looked for a way past.
+  bool ends_stuck = false;
   /// If it is done, but the limit is exceeded in the corners of a wall at its end: so far before it the fronts end, mm.
   double before_wall_mm = 0.0;
   /// Deepest that a half enters a face, by the planner's samples.

@@ -31,6 +31,7 @@ struct Joint {
   double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
   double speed = std::numeric_limits<double>::infinity();         ///< mm/s, rad/s
   double acceleration = std::numeric_limits<double>::infinity();  ///< mm/s^2, rad/s^2
+  double jerk = std::numeric_limits<double>::infinity();          ///< mm/s^3, rad/s^3
 };
 
 inline constexpr std::size_t kJointCount = 5;
@@ -68,7 +69,8 @@ struct Machine {
   NcPositions positions = NcPositions::kTipRotary;
   NcJoin join = NcJoin::kAxes;
   NcFeedMode feed_mode = NcFeedMode::kPerMinute;
-  int work_offset = 1;  ///< 1: G54
+  int work_offset = 1;      ///< 1: G54
+  double block_time = 0.0;  ///< the control needs as long for a block, s
 
   [[nodiscard]] const Joint& rotary_joint(std::size_t k) const { return joints[rotary[k]]; }
   [[nodiscard]] const Joint& linear_joint(std::size_t k) const { return joints[linear[k]]; }

@@ -50,6 +50,7 @@ void read_linear(const TomlTable& table, Joint& joint) {
   joint.high = travel[1];
   joint.speed = table.number("speed_mm_min", {1e-3, 1e7}) / 60.0;
   joint.acceleration = table.number("acceleration_mm_s2", {1e-3, 1e7});
+  if (table.has("jerk_mm_s3")) joint.jerk = table.number("jerk_mm_s3", {1e-3, 1e10});
 }
 
 /// The same of a rotary joint, in degrees and seconds. Without a travel it turns endlessly; the point on its axis is
@@ -63,6 +64,7 @@ void read_rotary(const TomlTable& table, Joint& joint) {
   }
   joint.speed = table.number("speed_deg_s", {1e-3, 1e6}) * kRadiansPerDegree;
   joint.acceleration = table.number("acceleration_deg_s2", {1e-3, 1e7}) * kRadiansPerDegree;
+  if (table.has("jerk_deg_s3")) joint.jerk = table.number("jerk_deg_s3", {1e-3, 1e10}) * kRadiansPerDegree;
 }
 
 Joint read_joint(const TomlTable& table, bool on_table) {
@@ -231,6 +233,7 @@ void read_meaning(const TomlTable& table, Machine& machine) {
   machine.feed_mode = table.word("feed", {"per-minute", "inverse-time"}) == "inverse-time" ? NcFeedMode::kInverseTime
                                                                                            : NcFeedMode::kPerMinute;
   machine.dialect.join = machine.join;
+  if (table.has("block_time_ms")) machine.block_time = 1e-3 * table.number("block_time_ms", {0.0, 1e3});
   // What the control cannot say is refused here, by line, rather than when the first program is written.
   const NcLanguageRow& language = row_of(machine.dialect.language);
   const std::string title(language.title);

@@ -47,16 +47,19 @@ std::string machine_to_text(const Machine& machine) {
                       "  travel", "speed /s", "acc. /s^2");
   for (const Joint& j : machine.joints) {
     const Vec3& d = j.direction;
-    text += fmt::format("{:<6} {:<6} {:<7} {:>24}   {:<22} {:>9.4g} {:>12.4g}{}\n", j.name, j.table ? "work" : "tool",
+    text += fmt::format("{:<6} {:<6} {:<7} {:>24}   {:<22} {:>9.4g} {:>12.4g}{}{}\n", j.name, j.table ? "work" : "tool",
                         j.kind == JointKind::kRotary ? "rotary" : "linear",
                         // Adding zero turns -0 into 0.
                         fmt::format("({:.3g}, {:.3g}, {:.3g})", d.x() + 0.0, d.y() + 0.0, d.z() + 0.0), travel_text(j),
-                        in_units(j, j.speed), in_units(j, j.acceleration), j.reversed ? "  reversed" : "");
+                        in_units(j, j.speed), in_units(j, j.acceleration),
+                        std::isfinite(j.jerk) ? fmt::format("  jerk {:.4g} /s^3", in_units(j, j.jerk)) : "",
+                        j.reversed ? "  reversed" : "");
   }
   text += fmt::format("control {}: positions {}, join {}, feed {}, rotary axes {}{}\n",
                       nc_language_name(machine.dialect.language), positions_word(machine.positions),
                       join_word(machine.join), feed_word(machine.feed_mode), machine.rotary_joint(0).name,
                       machine.rotary_joint(1).name);
+  if (machine.block_time > 0.0) text += fmt::format("a block takes at least {:g} ms\n", 1e3 * machine.block_time);
   text += fmt::format("tool length {:g} mm to {}\n", machine.tool_length,
                       machine.controlled == ControlledPoint::kLowest ? "its lowest point" : "the centre of its tip");
   for (const MachineBody& body : machine.bodies)
@@ -76,6 +79,7 @@ std::string machine_to_json(const Machine& machine) {
                {"feed", feed_word(machine.feed_mode)},
                {"rotary", machine.rotary_joint(0).name + machine.rotary_joint(1).name},
                {"tool_length_mm", machine.tool_length}};
+  if (machine.block_time > 0.0) json["block_time_ms"] = 1e3 * machine.block_time;
   json["joints"] = Json::array();
   for (const Joint& j : machine.joints) {
     Json joint = {{"name", j.name},
@@ -87,6 +91,7 @@ std::string machine_to_json(const Machine& machine) {
     if (std::isfinite(j.low)) joint["travel"] = {in_units(j, j.low), in_units(j, j.high)};
     joint["speed"] = in_units(j, j.speed);
     joint["acceleration"] = in_units(j, j.acceleration);
+    if (std::isfinite(j.jerk)) joint["jerk"] = in_units(j, j.jerk);
     json["joints"].push_back(std::move(joint));
   }
   json["bodies"] = Json::array();

@@ -316,6 +316,13 @@ bool wants_even_tool(const CavityPlan& plan, const CavityDemand& demand) {
          fills_reach(plan.sides, demand);
 }
 
+WhyNoCycles why_no_cycles(const CavityPlan& plan, const CavityDemand& demand) {
+  const FlankFitResult& fit = plan.sides.fit;
+  if (is_hopeless(plan.sides, demand)) return {NoCycles::kFarOff, 0.0, plan.tools};
+  const double way = least_way_across(fit.motions, fit.tool);
+  return {way < kLeastWay ? NoCycles::kNarrow : NoCycles::kEnded, way, plan.tools};
+}
+
 bool is_in_vain(int in_a_row, bool through) { return in_a_row >= (through ? 1 : 2); }
 
 std::vector<double> bounds_of(const TrochoidJob& job, const CavityWidth& width) {
@@ -347,7 +354,9 @@ CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const
     const double most_uncut = covered(uncut);
     std::vector<CavityPlan> plans = plans_under(search, {bound, thinner, fewest});
     for (const CavityPlan& plan : plans)
-      if (plan.program.layers.empty() && covered(plan) > covered(uncut) && !is_narrow(plan.sides)) uncut = plan;
+      if (plan.program.layers.empty() && covered(plan) > covered(uncut) && !is_narrow(plan.sides) &&
+          check_legitimacy(plan.sides.fit.tool).legitimate)
+        uncut = plan;
     CavityPlan tried = best_of(plans, demand);
     // A tool that has hardly any way across got no cycles, and says nothing of thinner ones.
     const bool narrow = tried.program.layers.empty() && is_narrow(tried.sides);
@@ -362,6 +371,8 @@ CavityPlan search_cavity(const TrochoidJob& job, const CavityFaces& faces, const
   const auto replace = [&](CavityPlan plan) {
     if (rank(plan, demand) > rank(best, demand)) best = std::move(plan);
   };
+  // Sides that cover a hair without a cut say less than those that cover most.
+  if (best.program.layers.empty() && covered(uncut) > covered(best)) best = uncut;
   // Where no tool does it, the sides without cycles may be those that leave least.
   if (!meets(best, demand) && covered(uncut) > cleared(best) * covered(best) && !progress.stop())
     replace(planned(uncut.sides, search, uncut.largest_radius_mm));

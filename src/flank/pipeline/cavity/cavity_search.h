@@ -1,6 +1,7 @@
 /// The search for a cavity's tool, side paths and program: from thick tools to thin ones.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -81,6 +82,15 @@ using CavityRank = std::tuple<bool, bool, bool, bool, int, int, bool, int>;
 /// is a thinner one). No other tool, no other lean and no longer search is then tried. Of a tool that is the last, or given, only the former
 /// says so: it may hardly have a way across.
 [[nodiscard]] bool ends_search(const CavityProgram& program, bool thinner);
+
+/// Why a plan has no cycles: its sides are hopeless, its tool has hardly a way across, or the search ended before it got so far.
+enum class NoCycles : std::uint8_t { kFarOff, kNarrow, kEnded };
+struct WhyNoCycles {
+  NoCycles why = NoCycles::kEnded;
+  double way_across = 0.0;  ///< where it is shortest, in diameters of the tool
+  int tools = 0;            ///< whose sides were looked for
+};
+[[nodiscard]] WhyNoCycles why_no_cycles(const CavityPlan& plan, const CavityDemand& demand);
 
 /// Thinner tools are slower, too: whether no more are tried after so many in a row that gained nothing. One may be unlucky where
 /// the cycles of the best got stuck; where they got `through`, none is.

@@ -21,9 +21,8 @@ struct Tours {
 };
 
 std::optional<Tour> tour_of(const Setup& setup, const TargetGroup& group, const ToolModel& tool,
-                            const FlankFitOptions& options, const std::optional<double>& length, bool eased) {
+                            const FlankFitOptions& options, const std::optional<double>& length) {
   TourRequest request;
-  request.eased = eased;
   for (const int face : group.indices) request.walls.push_back(setup.part.faces[static_cast<std::size_t>(face)]);
   request.tool = [&](double axis_length) { return tool.make(axis_length, tool.radius.value_or(1.0)); };
   request.axis_length_mm = length;
@@ -35,14 +34,14 @@ std::optional<Tour> tour_of(const Setup& setup, const TargetGroup& group, const 
 }
 
 std::optional<Tours> tours_of(const Setup& setup, const std::vector<TargetGroup>& groups, const ToolModel& tool,
-                              const FlankFitOptions& options, bool eased) {
+                              const FlankFitOptions& options) {
   const bool given = tool.make && tool.free_parameters.empty();
   if (!given || setup.part.is_mesh()) return {};
   Tours tours;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     std::optional<double> length = tool.axis_length ? tool.axis_length : options.axis_length_mm;
     if (tours.tool) length = tours.tool->axis_length();  // the first group says how long it is
-    std::optional<Tour> tour = tour_of(setup, groups[g], tool, options, length, eased);
+    std::optional<Tour> tour = tour_of(setup, groups[g], tool, options, length);
     if (!tour) return {};
     tours.tool = tour->tool;
     for (RuledMotion& motion : tour->motions) {
@@ -82,14 +81,11 @@ ToursOrFits fit_groups_after_tours(const Setup& setup, const std::vector<TargetG
   constexpr double kNoTwist = 1e-4;  // rad
   const double wanted = *std::max_element(demand.wanted.begin(), demand.wanted.end());
   std::optional<ToursOrFits> best;
-  // A tour that begins to turn at once is a kink to some; then one that leans before.
-  for (const bool eased : {false, true}) {
-    const std::optional<Tours> tours = tours_of(setup, groups, tool, options, eased);
-    const int asked = demand.strips * static_cast<int>(groups.size());
-    if (!tours || (asked > 0 && asked != static_cast<int>(tours->tasks.size()))) break;
-    ToursOrFits tour{estimated(*tours, tool, options), tours->twist_rad <= kNoTwist};
-    if (meets(tour.found.fit.after, wanted, options) || progress.stop()) return tour;
-    if (!best || is_better(tour.found.fit.after, best->found.fit.after, options)) best = std::move(tour);
+  const std::optional<Tours> tours = tours_of(setup, groups, tool, options);
+  const int asked = demand.strips * static_cast<int>(groups.size());
+  if (tours && (asked <= 0 || asked == static_cast<int>(tours->tasks.size()))) {
+    best = ToursOrFits{estimated(*tours, tool, options), tours->twist_rad <= kNoTwist};
+    if (meets(best->found.fit.after, wanted, options) || progress.stop()) return std::move(*best);
   }
   GroupFits found = fit_groups(groups, tool, options, demand, progress);
   if (!best || is_better(found.fit.after, best->found.fit.after, options)) return {std::move(found)};

@@ -1,11 +1,13 @@
 // Feeds: limits are kept at every millisecond, and what is found is near what an independent search finds.
-#include "flank/machine/feed.h"
+#include "flank/machine/feeds/feed.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "flank/base/random.h"
+#include "flank/machine/feeds/s_curve.h"
 #include "flank/machine/model/machine_file.h"
 
 namespace flank::internal {
@@ -63,6 +65,72 @@ TEST(Feed, AStraightWayIsATrapezoid) {
   EXPECT_NEAR(plan_feed(machine, little, kRounding).time_s, 2.0 * std::sqrt(2.0 / 500.0), 0.005);
   // A cap is a speed that is not exceeded.
   EXPECT_NEAR(plan_feed(machine, straight(100.0, 400, 20.0), kRounding).time_s, 100.0 / 20.0 + 20.0 / 500.0, 0.02);
+}
+
+Machine machine_of(double speed, double acceleration, double jerk) {
+  Machine machine = machine_of(speed, acceleration);
+  for (Joint& joint : machine.joints) joint.jerk = jerk;
+  return machine;
+}
+
+/// Of joint 2 by the third differences of its place, every millisecond.
+double largest_jerk(const FeedPlan& plan) {
+  double largest = 0.0;
+  for (std::size_t k = 3; k < plan.way.size(); ++k)
+    largest =
+        std::max(largest, std::abs(plan.way[k] - 3.0 * plan.way[k - 1] + 3.0 * plan.way[k - 2] - plan.way[k - 3]));
+  return largest / 1e-9;
+}
+
+TEST(Feed, WithALimitOfJerkAStraightWayTakesTheTimeOfItsSevenParts) {
+  for (const double jerk : {5000.0, 20000.0, 100000.0}) {
+    const auto nodes = straight(100.0, 2000, 1e9);
+    const FeedPlan plan = plan_feed(machine_of(50.0, 500.0, jerk), nodes, kRounding);
+    const double least = seconds_from_rest_to_rest(100.0, {50.0, 500.0, jerk});
+    EXPECT_NEAR(plan.time_s, least, 0.004) << jerk;
+    EXPECT_LE(largest_jerk(plan), 1.01 * jerk);
+    double seconds = 0.0;
+    for (const double here : plan.seconds) seconds += here;
+    EXPECT_NEAR(seconds, plan.time_s, 1e-9);
+  }
+}
+
+TEST(Feed, WithALimitOfJerkAShortWayIsLittleSlowerThanTheFastest) {
+  for (const double way : {0.5, 2.0, 6.0}) {
+    const FeedPlan plan = plan_feed(machine_of(50.0, 500.0, 20000.0), straight(way, 400, 1e9), kRounding);
+    const double least = seconds_from_rest_to_rest(way, {50.0, 500.0, 20000.0});
+    EXPECT_GT(plan.time_s, least - 0.002) << way;
+    EXPECT_LT(plan.time_s, 1.15 * least + 0.002) << way;
+    EXPECT_LE(largest_jerk(plan), 1.01 * 20000.0) << way;
+  }
+}
+
+TEST(Feed, WithALimitOfJerkNoOtherLimitIsExceededOnABentWay) {
+  const Machine free = machine_of(120.0, 1500.0), machine = machine_of(120.0, 1500.0, 60000.0);
+  const auto nodes = bent(3000, 80.0);
+  const FeedPlan without = plan_feed(free, nodes, kRounding), plan = plan_feed(machine, nodes, kRounding);
+  const FeedCheck check = check_feed(machine, nodes, plan);
+  EXPECT_LE(check.worst_speed, 1.0 + 1e-3);
+  EXPECT_LE(check.worst_acceleration, 1.05);
+  EXPECT_GT(plan.time_s, without.time_s);
+  EXPECT_LT(plan.time_s, 1.6 * without.time_s);
+  // The joints' own third differences over 5 ms, which the bends of the way between its nodes do not hide.
+  std::vector<double> ways{0.0};
+  for (std::size_t i = 1; i < plan.step.size(); ++i) ways.push_back(ways.back() + plan.step[i]);
+  const auto joint_at = [&](std::size_t k, std::size_t joint) {
+    const double at = plan.way[std::min(k, plan.way.size() - 1)];
+    const auto i = static_cast<std::size_t>(
+        std::clamp<std::ptrdiff_t>(std::upper_bound(ways.begin(), ways.end(), at) - ways.begin(), 1,
+                                   static_cast<std::ptrdiff_t>(ways.size()) - 1));
+    return std::lerp(nodes[i - 1].joints[joint], nodes[i].joints[joint], (at - ways[i - 1]) / plan.step[i]);
+  };
+  constexpr std::size_t kApart = 5;
+  for (std::size_t k = 0; k < plan.way.size(); ++k)
+    for (const std::size_t joint : {std::size_t{2}, std::size_t{3}}) {
+      const double third = joint_at(k + 3 * kApart, joint) - 3.0 * joint_at(k + 2 * kApart, joint) +
+                           3.0 * joint_at(k + kApart, joint) - joint_at(k, joint);
+      ASSERT_LE(std::abs(third) / std::pow(1e-3 * kApart, 3), 1.1 * 60000.0) << k;
+    }
 }
 
 TEST(Feed, LimitsHoldEveryMillisecondOnAnyWay) {

@@ -1,15 +1,15 @@
-#include "flank/machine/feed.h"
+#include "flank/machine/feeds/feed.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "flank/error.h"
+#include "flank/machine/feeds/jerk.h"
 
 namespace flank::internal {
 namespace {
 
-constexpr double kTick = 1e-3;  ///< s: what a servo sees
 /// A way without contact length (a joint turns, the tool stays) still passes: this much length a second of its joints.
 constexpr double kIdle = 1e-3;
 constexpr int kMostPasses = 30;
@@ -42,11 +42,11 @@ class Planner {
     FeedPlan plan = solve();
     for (int pass = 0; pass < kMostPasses; ++pass)
       if (!slow_down_where_needed(plan))
-        return plan;
+        return has_jerk_limits(machine_) ? with_jerk_limits(std::move(plan)) : plan;
       else
         plan = solve();
     stretch(plan);
-    return plan;
+    return has_jerk_limits(machine_) ? with_jerk_limits(std::move(plan)) : plan;
   }
 
   /// Of every node: the squared speed that the joints' speeds and the bend of their way allow, without speeding up.
@@ -188,6 +188,8 @@ class Planner {
   bool slow_down_where_needed(const FeedPlan& plan);
   /// Slows the whole down until the limits hold.
   void stretch(FeedPlan& plan) const;
+  /// The speeds again, smoothed until the jerk of no joint is too large.
+  FeedPlan with_jerk_limits(FeedPlan plan);
 
   const Machine& machine_;
   std::span<const FeedNode> nodes_;
@@ -197,75 +199,16 @@ class Planner {
   std::vector<JointValues> rate_;   ///< of the joints per length, on the way to each node
 };
 
-/// The joints at a share of the way to node i, on the parabolas at its ends.
-JointValues place(std::span<const FeedNode> nodes, const FeedPlan& plan, std::size_t i, double share) {
-  const std::size_t near = share < 0.5 ? i - 1 : i;
-  const double off = (share < 0.5 ? share : 1.0 - share) * plan.step[i], half = 0.5 * plan.bend[near];
-  const double lift = off < half ? (half - off) * (half - off) / (4.0 * half) : 0.0;
-  JointValues q{};
-  for (std::size_t j = 0; j < kJointCount; ++j) {
-    q[j] = nodes[i - 1].joints[j] + share * (nodes[i].joints[j] - nodes[i - 1].joints[j]);
-    if (lift > 0.0)
-      q[j] += lift * ((nodes[near + 1].joints[j] - nodes[near].joints[j]) / plan.step[near + 1] -
-                      (nodes[near].joints[j] - nodes[near - 1].joints[j]) / plan.step[near]);
-  }
-  return q;
-}
-
-/// The joints every millisecond. visit(first, last node around, joints at t - tick, t, t + tick).
-template <class Visit>
-void sample(std::span<const FeedNode> nodes, const FeedPlan& plan, const Visit& visit) {
-  std::size_t i = 1;
-  double start = 0.0;  // time at node i - 1
-  JointValues before = nodes.front().joints, here = before;
-  std::size_t node_before = 0, node_here = 0;
-  const auto ticks = static_cast<std::size_t>(std::ceil(plan.time_s / kTick)) + 2;
-  for (std::size_t k = 1; k <= ticks; ++k) {
-    const double t = static_cast<double>(k) * kTick;
-    while (i < nodes.size() && start + plan.seconds[i] <= t) start += plan.seconds[i++];
-    JointValues next = nodes.back().joints;
-    if (i < nodes.size()) {
-      // The speed runs linearly in time: the share of the way is quadratic.
-      const double tau = (t - start) / plan.seconds[i], v0 = plan.speed[i - 1], v1 = plan.speed[i];
-      const double share = v0 + v1 > 0.0 ? tau * (2.0 * v0 + (v1 - v0) * tau) / (v0 + v1)
-                                         : (tau < 0.5 ? 2.0 * tau * tau : 1.0 - 2.0 * (1.0 - tau) * (1.0 - tau));
-      next = place(nodes, plan, i, std::clamp(share, 0.0, 1.0));
-    }
-    visit(node_before, std::min(i, nodes.size() - 1), before, here, next);
-    before = here;
-    here = next;
-    node_before = node_here;
-    node_here = std::min(i, nodes.size() - 1) - (i < nodes.size() ? 1 : 0);
-  }
-}
-
-/// The largest share of a limit over the joints, at one millisecond.
-struct Shares {
-  double speed = 0.0, acceleration = 0.0;
-};
-Shares shares(const Machine& machine, const JointValues& before, const JointValues& here, const JointValues& next) {
-  Shares s;
-  for (std::size_t k = 0; k < kJointCount; ++k) {
-    s.speed = std::max(s.speed, std::abs(next[k] - here[k]) / kTick / machine.joints[k].speed);
-    s.acceleration = std::max(s.acceleration, std::abs(next[k] - 2.0 * here[k] + before[k]) / (kTick * kTick) /
-                                                  machine.joints[k].acceleration);
-  }
-  return s;
-}
-
-/// What counts as more than a limit: rounding of the differences.
-constexpr double kSlack = 1e-6;
-
 bool Planner::slow_down_where_needed(const FeedPlan& plan) {
   bool any = false;
   const std::vector<double> share = share_;
   sample(nodes_, plan,
          [&](std::size_t first, std::size_t last, const JointValues& b, const JointValues& h, const JointValues& n) {
-           const Shares s = shares(machine_, b, h, n);
-           if (std::max(s.speed, s.acceleration) <= 1.0 + kSlack) return;
+           const JointShares s = joint_shares(machine_, b, h, n);
+           if (std::max(s.speed, s.acceleration) <= 1.0 + kFeedSlack) return;
            any = true;
            for (std::size_t i = first; i <= last && i + 1 < nodes_.size(); ++i)
-             if (s.speed > 1.0 + kSlack || bend_[i] < plan.speed[i] * kTick) {
+             if (s.speed > 1.0 + kFeedSlack || bend_[i] < plan.speed[i] * kFeedTick) {
                // A jump that is shorter than a tick falls with the speed, not with its square.
                const double over = std::max(s.speed * s.speed, s.acceleration);
                cap_[i] = std::min(cap_[i], plan.speed[i] * plan.speed[i] / std::min(1.02 * over * over, kMostSlowing));
@@ -282,7 +225,7 @@ void Planner::stretch(FeedPlan& plan) const {
   for (int pass = 0; pass < kMostPasses; ++pass) {
     const FeedCheck check = check_feed(machine_, nodes_, plan);
     const double over = std::max(check.worst_speed, check.worst_acceleration);
-    if (over <= 1.0 + kSlack) return;
+    if (over <= 1.0 + kFeedSlack) return;
     // Accelerations fall with the square of the time, so this is more than enough for them; a little more, lest
     // rounding asks for another pass.
     const double factor = over * (1.0 + 1e-3);
@@ -295,27 +238,33 @@ void Planner::stretch(FeedPlan& plan) const {
   }
 }
 
+FeedPlan Planner::with_jerk_limits(FeedPlan plan) {
+  constexpr int kMostJerkPasses = 200;
+  // Smoothing fills the dips of the speed and lifts nothing else: where that is too much they become flat, and where the acceleration
+  // changes its sign there is a stretch of constant speed.
+  constexpr double kMostOver = 1.1;
+  FeedPlan smooth = smoothed(machine_, nodes_, plan);
+  for (int pass = 0; pass < kMostJerkPasses; ++pass) {
+    const std::vector<TooFast> places = too_fast(machine_, nodes_, smooth);
+    if (places.empty()) return smooth;
+    for (const TooFast& place : places) {
+      double fastest = 0.0;
+      for (std::size_t i = place.first; i <= place.last; ++i) fastest = std::max(fastest, plan.speed[i]);
+      const double most = fastest * fastest / std::min(1.001 * place.over, kMostOver);
+      for (std::size_t i = place.first; i <= place.last; ++i) cap_[i] = std::min(cap_[i], most);
+    }
+    plan = solve();
+    smooth = smoothed(machine_, nodes_, plan);
+  }
+  return stretched(machine_, nodes_, std::move(smooth));
+}
+
 }  // namespace
 
 FeedPlan plan_feed(const Machine& machine, std::span<const FeedNode> nodes, double rounding) {
   if (nodes.size() < 2 || !(rounding > 0.0))
     throw InternalError("a feed needs at least two points of the path and a corner tolerance > 0");
   return Planner(machine, nodes, rounding).run();
-}
-
-FeedCheck check_feed(const Machine& machine, std::span<const FeedNode> nodes, const FeedPlan& plan) {
-  FeedCheck check;
-  sample(nodes, plan, [&](std::size_t, std::size_t, const JointValues& b, const JointValues& h, const JointValues& n) {
-    ++check.samples;
-    const Shares s = shares(machine, b, h, n);
-    check.worst_speed = std::max(check.worst_speed, s.speed);
-    check.worst_acceleration = std::max(check.worst_acceleration, s.acceleration);
-    for (std::size_t k = 0; k < kJointCount; ++k) {
-      check.speed[k] = std::max(check.speed[k], std::abs(n[k] - h[k]) / kTick);
-      check.acceleration[k] = std::max(check.acceleration[k], std::abs(n[k] - 2.0 * h[k] + b[k]) / (kTick * kTick));
-    }
-  });
-  return check;
 }
 
 double constant_speed(const Machine& machine, std::span<const FeedNode> nodes, double rounding) {
