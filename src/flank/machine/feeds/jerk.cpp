@@ -114,7 +114,7 @@ Going going_at(const std::vector<double>& ways, std::size_t tick) {
     const auto last = static_cast<std::ptrdiff_t>(ways.size()) - 1;
     return ways[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(tick) + k, 0, last))];
   };
-  constexpr double h = kFeedTick;
+  const double h = kFeedTick;
   return {(way(1) - way(-1)) / (2.0 * h), (way(1) - 2.0 * way(0) + way(-1)) / (h * h),
           (way(2) - 2.0 * way(1) + 2.0 * way(-1) - way(-2)) / (2.0 * h * h * h)};
 }
