@@ -61,18 +61,30 @@ void measure_bodies_of(const Setup& setup, Result& result) {
 
 }  // namespace
 
+PartRequest part_request(const WheelWork& work, const std::vector<std::string>& faces) {
+  PartRequest out;
+  out.file = work.job.part;
+  out.unit = work.job.unit;
+  out.faces = face_list(faces);
+  return out;
+}
+
+ObstacleRequest obstacle_request(const WheelWork& work) {
+  ObstacleRequest out;
+  if (!work.roles.debris.empty()) out.ignore_faces = face_list(work.roles.debris);
+  return out;
+}
+
 Result judged_path(const WheelWork& work, const std::vector<std::string>& faces, Path path, double least, Care care,
                    const std::string& tool) {
   Result result;
   CoverJob job;
-  job.part.file = work.job.part;
-  job.part.unit = work.job.unit;
-  job.part.faces = face_list(faces);
+  job.part = part_request(work, faces);
   job.tool.spec = tool_file(work, tool);
   job.tolerance_mm = work.job.tolerance_mm;
   job.judge.least_coverage = least;
   job.judge.reach_radius_mm = kOpenBall * work.job.tolerance_mm;
-  if (!work.roles.debris.empty()) job.obstacles.ignore_faces = face_list(work.roles.debris);
+  job.obstacles = obstacle_request(work);
   Setup setup = read_setup(job.part, job.obstacles, job.tolerance_mm, result.notes);
   if (care == Care::kFull) stand_lacking(*read_wheel_plan(work.job.folder), setup);
   if (care == Care::kDraft) job.judge.sample_mm = coarse_spacing(setup, kDraftSamples);

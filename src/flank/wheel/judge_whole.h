@@ -15,6 +15,10 @@ inline constexpr double kOpenBall = 5.0;
 /// How closely: an operation's own verdict is a draft, at few samples; the whole is judged as the job says.
 enum class Care { kDraft, kFull };
 
+/// Some of the wheel's faces, and all but what is no part of it in the way.
+[[nodiscard]] PartRequest part_request(const WheelWork& work, const std::vector<std::string>& faces);
+[[nodiscard]] ObstacleRequest obstacle_request(const WheelWork& work);
+
 /// A path of one of the work's tools over some faces, judged as a cover of that tool. `least`: the share of what is open that counts as
 /// done.
 [[nodiscard]] Result judged_path(const WheelWork& work, const std::vector<std::string>& faces, Path path, double least,

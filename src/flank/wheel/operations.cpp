@@ -32,20 +32,6 @@ constexpr double kCornerShare = 0.5;    ///< of what may be left, that the corne
 constexpr double kShankHeights = 2.0;   ///< of the tallest blade: the shank that a side's fit keeps clear of the wheel
 constexpr double kFilletShare = 0.97;   ///< of a root fillet's radius, that the tip has
 
-PartRequest part_request(const WheelWork& work, const Names& faces) {
-  PartRequest out;
-  out.file = work.job.part;
-  out.unit = work.job.unit;
-  out.faces = face_list(faces);
-  return out;
-}
-
-ObstacleRequest obstacle_request(const WheelWork& work) {
-  ObstacleRequest out;
-  if (!work.roles.debris.empty()) out.ignore_faces = face_list(work.roles.debris);
-  return out;
-}
-
 /// The tip that a root fillet lets in; without fillets the largest one that leaves no more in the corners between sides and hub than a
 /// share of what may be left: a ball of radius r leaves r - sqrt(2 r tolerance) on either side, about.
 double tip_radius(WheelWork& work) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "flank/io/text/json_input.h"
 #include "flank/path_file.h"
@@ -29,14 +30,9 @@ Path paths_of(const WheelWork& work, const std::vector<WheelOperation>& operatio
 /// The tool with a shank for a path.
 Tool with_shank(const WheelWork& work, Tool tool, const Path& path, const std::string& id,
                 std::vector<std::string>& notes) {
-  PartRequest part;
-  part.file = work.job.part;
-  part.unit = work.job.unit;
-  part.faces = face_list(work.roles.hub);
-  ObstacleRequest obstacles;
-  if (!work.roles.debris.empty()) obstacles.ignore_faces = face_list(work.roles.debris);
+  ObstacleRequest obstacles = obstacle_request(work);
   std::vector<std::string> told;
-  const Setup setup = read_setup(part, obstacles, work.job.tolerance_mm, told);
+  const Setup setup = read_setup(part_request(work, work.roles.hub), obstacles, work.job.tolerance_mm, told);
   const ClearanceScene scene = make_clearance_scene(setup, obstacles, true, told);
   choose_clear_shank(scene, path, setup.part.box, kAnySlenderness, tool, obstacles);
   equip_tool(obstacles, tool);
