@@ -12,6 +12,8 @@
 #include "flank/judge.h"
 #include "flank/wheel/finished_places.h"
 #include "flank/wheel/point/face_lines.h"
+#include "flank/wheel/point/flank_joints.h"
+#include "flank/wheel/point/tip_room.h"
 
 namespace flank::internal {
 namespace {
@@ -121,6 +123,39 @@ TEST(FacePasses, GoOnAlongTheBorderFromWhatTheFlankHasLeft) {
     }
   EXPECT_GT(joined, 20);
   EXPECT_GT(alone, 4);
+}
+
+/// Half of the border's length is beside a side on which the flank has left material: passes close to it would cut into that.
+TEST(FlankJoints, KeepPassesBesideOffWhatTheFlankHasLeft) {
+  constexpr double kLeft = 0.03;
+  const Edge edge;
+  FloorChannel around;
+  around.walls = {edge.target.get()};
+  const PointOptions options;
+  const TipRoom room(around, edge.tool.radial, options);
+  const FaceLines lines(edge.face, kTip, 0.002, 0.5);
+  ASSERT_GE(lines.lines(), 12U);
+  const auto left = [&](const Vec3& x) -> std::optional<SurfaceLeft> {
+    if (x.z() > 0.5 * kSpan) return {};
+    return SurfaceLeft{kLeft, edge.target->closest(x).normal};
+  };
+  const FlankJoints joints(lines, room, left);
+  double least = 1e300, most_up = 0.0;
+  for (std::size_t n = 1; n + 1 < lines.lines(); ++n)
+    for (double place = 0.0; place < 0.45 * kSpan / 0.5; place += 0.25) {
+      const FaceLines::Place here = lines.at(n, place).value();
+      const Vec3 moved = joints.at(n, place, here).moved;
+      most_up = std::max(most_up, moved.dot(here.normal));
+      for (const std::size_t border : {std::size_t{0}, lines.lines() - 1})
+        least = std::min(least,
+                         (here.point + room.lift_mm() * here.normal + moved - lines.at(border, place)->point).norm());
+    }
+  EXPECT_GE(least, kTip + kLeft - 1e-9);
+  EXPECT_GT(most_up, 0.3 * kLeft);
+  EXPECT_GT(joints.steps(1), 1U) << "chords between few poses would cut as well";
+  EXPECT_EQ(joints.steps(lines.lines() / 2), 1U);
+  const double last = static_cast<double>(lines.places()) - 1.0;
+  EXPECT_LT(joints.at(1, last, *lines.at(1, last)).moved.norm(), 1e-12) << "no flank has been there";
 }
 
 TEST(FaceLines, AreNearerToEachOtherWhereTheSphereIsSmaller) {

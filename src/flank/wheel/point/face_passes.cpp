@@ -8,15 +8,14 @@
 #include "flank/base/parallel.h"
 #include "flank/wheel/point/axis_field.h"
 #include "flank/wheel/point/face_lines.h"
+#include "flank/wheel/point/flank_joints.h"
 #include "flank/wheel/point/pass_strips.h"
 #include "flank/wheel/point/tip_room.h"
 
 namespace flank::internal {
 namespace {
 
-constexpr double kStepMm = 0.5;  ///< between poses
-constexpr std::size_t kJointSteps =
-    4;  ///< poses in their place on a border: chords between them would turn the surface's normal there
+constexpr double kStepMm = 0.5;       ///< between poses
 constexpr double kNetMm = 2.5;        ///< of the net of directions, along
 constexpr std::size_t kColumns = 18;  ///< and across, at most
 constexpr double kLinkMm =
@@ -44,7 +43,7 @@ struct Work {
   const TipRoom& room;
   const AxisField& field;
   const Net& net;
-  const PointOptions& options;
+  const FlankJoints& joints;
 };
 
 /// Whether a place within a node's cells needs a pass: other nodes need no direction.
@@ -77,48 +76,11 @@ AxisField field_of(const FaceLines& lines, const TipRoom& room, const Net& net, 
   return {room, places, net.rows, net.columns};
 }
 
-/// Whether a line lies on the face's border, where a flank may have finished the face beside.
-bool joins_a_flank(const Work& work, std::size_t line) {
-  return work.options.left_by_flank && (line == 0 || line + 1 == work.lines.lines());
-}
-
-/// How a pass along the border goes on from what the flank has left of the face beside: moved so far from where it would touch its own face,
-/// and so much deeper. As deep as the flank has cut, so that there is no step.
-struct Joint {
-  Vec3 moved = Vec3::Zero();
-  double deeper_mm = 0.0;
-};
-
-std::optional<Joint> joint_at(const Work& work, std::size_t line, double place) {
-  constexpr double kAlike = 0.9;  // the least cosine between normals of faces that go on smoothly into each other
-  const std::optional<FaceLines::Place> here = work.lines.at(line, place);
-  if (!here) return {};
-  const std::optional<SurfaceLeft> left = work.options.left_by_flank(here->point);
-  if (!left || left->normal.dot(here->normal) < kAlike) return {};
-  return Joint{(work.room.tip_mm() + left->height_mm) * left->normal - work.room.lift_mm() * here->normal,
-               std::max(0.0, -left->height_mm)};
-}
-
-/// Where the flank ends, the pass comes back to its own face little by little: a step along it would be a kink.
-Joint faded_joint(const Work& work, std::size_t line, double place) {
-  constexpr int kFade = 16;
-  const double last = static_cast<double>(work.lines.places()) - 1.0;
-  for (int k = 0; k < kFade; ++k)
-    for (const int sign : {1, -1}) {
-      const double beside = place + sign * k / static_cast<double>(kJointSteps),
-                   share = 1.0 - k / static_cast<double>(kFade);
-      if (beside < 0.0 || beside > last) continue;
-      if (const std::optional<Joint> found = joint_at(work, line, beside))
-        return {share * found->moved, share * found->deeper_mm};
-    }
-  return {};
-}
-
 /// A pose with room at a place; none beside the face, and where no direction of the field has any.
 std::optional<Pose> pose_at(const Work& work, std::size_t line, double place) {
   const std::optional<FaceLines::Place> here = work.lines.at(line, place);
   if (!here) return {};
-  const Joint joint = joins_a_flank(work, line) ? faded_joint(work, line, place) : Joint();
+  const FlankJoints::Shift joint = work.joints.at(line, place, *here);
   const Vec3 tip = here->point + work.room.lift_mm() * here->normal + joint.moved;
   if (!work.room.tip_is_free(tip, joint.deeper_mm)) return {};
   const double row = place / work.net.rows_apart, column = static_cast<double>(line) / work.net.columns_apart;
@@ -158,7 +120,7 @@ std::vector<char> needed(const FaceLines& lines, const PointOptions& options, st
 }
 
 PoseRow row_of(const Work& work, std::size_t line, const std::vector<char>& wanted) {
-  const std::size_t steps = joins_a_flank(work, line) ? kJointSteps : 1;
+  const std::size_t steps = work.joints.steps(line);
   const double step = 1.0 / static_cast<double>(steps);
   const auto asked = [&](std::size_t k) { return wanted[k / steps] != 0 && wanted[(k + steps - 1) / steps] != 0; };
   PoseRow out;
@@ -188,7 +150,8 @@ std::vector<Strip> face_passes(const Face& face, const FloorChannel& around, con
   parallel_for(wanted.size(), [&](std::size_t line) { wanted[line] = needed(lines, options, line); });
   const Net net(lines);
   const AxisField field = field_of(lines, room, net, wanted);
-  const Work work{lines, room, field, net, options};
+  const FlankJoints joints(lines, room, options.left_by_flank);
+  const Work work{lines, room, field, net, joints};
   std::vector<PoseRow> found(lines.lines());
   parallel_for(found.size(), [&](std::size_t line) { found[line] = row_of(work, line, wanted[line]); });
   std::vector<Strip> out;
