@@ -20,13 +20,16 @@ namespace {
 /// The first reason against a draft that is not the lack of a proof: the proof is the whole wheel's.
 std::optional<Shortfall> found_by_samples(const Acceptance& acceptance) {
   for (const Shortfall& reason : acceptance.reasons)
-    if (reason.figure != figure_name(Figure::kOvercutBound) && reason.figure != figure_name(Figure::kGougeBound) &&
-        reason.figure != figure_name(Figure::kCoverageBound))
-      return reason;
+    if (!is_proof(reason)) return reason;
   return {};
 }
 
 }  // namespace
+
+bool is_proof(const Shortfall& reason) {
+  return reason.figure == figure_name(Figure::kOvercutBound) || reason.figure == figure_name(Figure::kGougeBound) ||
+         reason.figure == figure_name(Figure::kCoverageBound);
+}
 
 std::string in_folder(const WheelWork& work, const std::string& name) {
   return (fs::path(work.job.folder) / name).string();

@@ -17,6 +17,9 @@ namespace flank::internal {
 [[nodiscard]] WheelOperation perform(const WheelWork& work, WheelOperation operation, const std::string& decides,
                                      const std::function<Result()>& make);
 
+/// Whether a reason is the lack of a proof, and nothing that was found.
+[[nodiscard]] bool is_proof(const Shortfall& reason);
+
 /// Whether a result is what its operation was to do, and else why not.
 void settle(const Result& result, WheelOperation& operation);
 

@@ -63,9 +63,6 @@ void write_whole(const WheelResult& result, const std::string& folder) {
 
 /// The whole of what finishes something, its figures and what it leaves, into the wheel's folder.
 void judge(WheelWork& work, WheelResult& result) {
-  // The judge needs memory of its own, and nothing of this.
-  work.fine.reset(), work.grid.reset(), work.grid_all_round.reset(), work.coarse.reset(), work.all_round.reset(),
-      work.targets.forget();
   if (work.finish.strips.empty()) return;
   result.whole = judge_whole(work);
   result.figures = role_figures(result.roles, result.whole->verify);
@@ -130,6 +127,7 @@ WheelResult run_wheel(const WheelRequest& job, const Progress& progress) {
   progress.step("rough", 0.6);
   if (job.rough) run(rough_operation(work));
   progress.step("verify", 0.8);
+  work.forget();
   give_shanks(work, result.operations, result.notes);
   judge(work, result);
   plan.end();

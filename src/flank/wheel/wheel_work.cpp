@@ -200,6 +200,11 @@ const DistanceGrid& WheelWork::wheel_distances() {
   return *grid_all_round;
 }
 
+void WheelWork::forget() {
+  fine.reset(), grid.reset(), grid_all_round.reset(), coarse.reset(), all_round.reset();
+  targets.forget();
+}
+
 const TriangleBvh& WheelWork::wheel_triangles() {
   const std::vector<TurnedFaces> lacking = all_missing(*this);
   if (lacking.empty()) return coarse_triangles();

@@ -61,6 +61,8 @@ struct WheelWork {
   [[nodiscard]] const DistanceGrid& wheel_distances();
   /// The whole wheel, with all blades that the part lacks, as the first of these: what stands in the way of an axis far above the flank.
   [[nodiscard]] const TriangleBvh& wheel_triangles();
+  /// Gives back the memory of all these: what reads the part once more, as the judge does, needs its own.
+  void forget();
   [[nodiscard]] double reach_mm() const;       ///< no two places of the wheel are farther from each other
   static constexpr double kGuardShare = 0.02;  ///< of the tolerance: `off_mm` of finishing paths
   static constexpr double kEqualShare = 0.1;
