@@ -29,8 +29,9 @@ def main():
     scallop = SCALLOP_SHARE * verdict["tolerance_mm"]
     apart = 2.0 * math.sqrt(2.0 * radius * scallop - scallop**2)
     sectors = plan["sectors"]
-    # The verdict counts all that the part has of the hub, and the blades of one sector.
-    area = sum(face["area_mm2"] * face.get("reachable_share", 0.0) * sectors / (plan["hub_sectors"] if face["face"] in hub else 1)
+    # The verdict's faces are all that the part has of the hub, and blades that stand for their copies.
+    own = 1 if plan["whole"] else sectors
+    area = sum(face["area_mm2"] * face.get("reachable_share", 0.0) * (sectors / plan["hub_sectors"] if face["face"] in hub else face.get("copies", own))
                for face in verdict["faces"] if face["target"])
     ours = sum(length_of(json.loads((folder / op["folder"] / "path.json").read_text())) * op["copies"]
                for op in plan["operations"] if op["done"] and op["kind"] != "rough")

@@ -158,6 +158,7 @@ struct FaceVerdict {
   std::string face;
   bool target = false;
   double area_mm2 = 0.0;
+  int copies = 1;  ///< equal faces that it stands for, itself among them: coverage of all targets counts it so often
   std::size_t samples = 0;
   double overcut_mm = 0.0;             ///< max(0, -f) over the face
   double undercut_mm = 0.0;            ///< max(0, f) over the face (target)

@@ -111,6 +111,8 @@ void bind_report_parts(py::module_& module) {
       .def_readonly("face", &FaceVerdict::face, "\"F1\".")
       .def_readonly("target", &FaceVerdict::target, "Whether the face is machined; else it is a check surface.")
       .def_readonly("area_mm2", &FaceVerdict::area_mm2, "Area, mm^2.")
+      .def_readonly("copies", &FaceVerdict::copies,
+                    "Equal faces that it stands for in the coverage of all, itself among them.")
       .def_readonly("overcut_mm", &FaceVerdict::overcut_mm, "Deepest gouge found, mm.")
       .def_readonly("overcut_bound_mm", &FaceVerdict::overcut_bound_mm, "Proved bound of the gouge, mm.")
       .def_readonly("undercut_mm", &FaceVerdict::undercut_mm, "Most excess material, mm (machined faces only).")

@@ -110,7 +110,7 @@ TEST_F(WheelPlanFile, ABladeThatThePartLacksStandsThereTurned) {
   ASSERT_EQ(plan.lacking.size(), 1U);
   flank::internal::Setup setup;
   setup.part.faces = {test::plane_face("F1", 4.0, 2.0)};
-  stand_lacking(plan, setup);
+  stand_whole(plan, setup);
   ASSERT_EQ(setup.standing.size(), 1U);
   // A third of a turn about the line through (1, 0, 0) along z.
   const double angle = 2.0 * std::numbers::pi / 3.0;
@@ -119,6 +119,21 @@ TEST_F(WheelPlanFile, ABladeThatThePartLacksStandsThereTurned) {
     for (const double z : {0.0, 2.0}) box.add(Vec3(1.0 + (x - 1.0) * std::cos(angle), (x - 1.0) * std::sin(angle), z));
   EXPECT_LT((setup.standing[0].box().low - box.low).norm(), 1e-9);
   EXPECT_LT((setup.standing[0].box().high - box.high).norm(), 1e-9);
+}
+
+TEST_F(WheelPlanFile, ABladesFacesCountForItsCopies) {
+  std::string text = kPlan;
+  text.replace(text.find(R"("folder": "ops/20-side")"), 0, R"("faces": ["F2"], )");
+  flank::internal::Setup setup;
+  setup.part.faces = {test::plane_face("F1", 4.0, 2.0), test::plane_face("F2", 4.0, 2.0)};
+  write_plan(text);
+  stand_whole(read_wheel_plan(root_.string()).value(), setup);
+  EXPECT_EQ(setup.copies, (std::map<int, int>{{1, 3}})) << "the hub is one face";
+  setup.copies.clear();
+  text.replace(text.find(R"("whole": true)"), 13, R"("whole": false)");
+  write_plan(text);
+  stand_whole(read_wheel_plan(root_.string()).value(), setup);
+  EXPECT_TRUE(setup.copies.empty()) << "of a piece of a wheel there are no copies";
 }
 
 TEST_F(WheelPlanFile, WhatIsLeftOutOfTheWheelIsACautionOfItsVerdict) {

@@ -75,6 +75,33 @@ TEST_F(HalfAPlane, NothingIsProvedToBeFinishedWhereItIsCutTooDeepAnyway) {
   EXPECT_EQ(report.faces[0].cover_cells, 0u);
 }
 
+/// The blades of a wheel that one of them stands for.
+TEST_F(HalfAPlane, CountsAsOftenAsThereAreCopiesOfIt) {
+  const Face other = test::plane_face("F2", 10.0, 5.0);
+  const FaceShape shape = &other;
+  FaceSamples far = sample_face(other, 0.5, true);
+  for (Vec3& p : far.points) p.z() += 500.0;
+  verify::JudgedFace half{.face = "F1",
+                          .target = true,
+                          .size_mm = 45.0,
+                          .samples = [this](std::size_t, bool, const auto& use) { use(samples_); },
+                          .shape = &shape_,
+                          .copies = 3};
+  verify::JudgedFace none{.face = "F2",
+                          .target = true,
+                          .size_mm = 11.0,
+                          .samples = [&](std::size_t, bool, const auto& use) { use(far); },
+                          .shape = &shape};
+  const VerifyReport report = verify::judge_faces(tool_, path_, {half, none}, {}, {});
+  const FaceVerdict& first = report.faces[0];
+  ASSERT_GT(first.coverage, 0.4);
+  ASSERT_EQ(report.faces[1].coverage, 0.0);
+  EXPECT_EQ(first.copies, 3);
+  EXPECT_NEAR(first.area_mm2, 800.0, 1e-6) << "of one";
+  EXPECT_NEAR(report.coverage, 3.0 * 800.0 * first.coverage / (3.0 * 800.0 + 50.0), 1e-12);
+  EXPECT_NEAR(report.coverage_reachable, report.coverage, 1e-12);
+}
+
 TEST_F(HalfAPlane, CellsThatAreReachableInPartAreCutWhereThatDecides) {
   // Reachable is what is covered, but for a hair. Cells are 2 mm, then a quarter.
   const auto reach_to = [](FaceSamples& samples, double short_by) {

@@ -130,6 +130,7 @@ Json to_json(const FaceVerdict& f) {
             {"overcut_bound_mm", number(f.overcut_bound_mm)},
             {"bound_point", point(f.bound_point)},
             {"proof_cells", f.proof_cells}};
+  if (f.copies > 1) j["copies"] = f.copies;
   // Absent where nothing is cut: there is no deepest place then.
   if (f.deepest) j["deepest"] = to_json(*f.deepest);
   return j;
@@ -140,6 +141,7 @@ FaceVerdict face_from(const Json& j) {
   f.face = j.at("face").get<std::string>();
   f.target = j.at("target").get<bool>();
   f.area_mm2 = to_number(j.at("area_mm2"));
+  f.copies = j.value("copies", 1);
   f.samples = j.at("samples").get<std::size_t>();
   f.spacing_mm = to_number(j.at("spacing_mm"));
   f.overcut_mm = to_number(j.at("overcut_mm"));

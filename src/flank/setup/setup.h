@@ -1,6 +1,7 @@
 /// A part with the faces that are machined and those that must not be entered: what every command begins with.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,8 @@ struct Setup {
   std::vector<int> unread = {};  ///< faces that are in the file and could not be read, but for those ignored by name
   std::vector<SheetSide> sides = {};  ///< of the targets that bound no material
   double allowance_mm = 0.0;          ///< left on the faces of the part on purpose, >= 0
+  /// Of a target that stands for equal ones, such as a side of a wheel's blade: how many there are, itself among them.
+  std::map<int, int> copies = {};
   /// Bodies that stand on the part where all is there, such as blades that a piece of a wheel lacks: what they cover is not accessible.
   /// They may be open where they stand.
   std::vector<TriangleMesh> standing = {};

@@ -13,7 +13,8 @@ struct Sums {
   double area = 0.0, covered = 0.0, reachable = 0.0, covered_reachable = 0.0, touched = 0.0, squares = 0.0;
   /// Of the area that is proved not to be left: of all of it, of what is reachable.
   double proved = 0.0, proved_reachable = 0.0;
-  Sums& operator+=(const Sums& other);
+  /// So often as there are copies of the face.
+  void add(const Sums& face, int copies);
 };
 
 double share_of(double part, double whole);

@@ -75,7 +75,7 @@ class Judge {
         if (!again || faces[k].target) results[k] = judge_face(faces[k], known[k]);
       finish(results, shapes && !faces.empty());
       again = true;
-      if (border_decides(least.reachable, known)) {
+      if (border_decides(least.reachable, faces, known)) {
         fine_ = true;
         for (FaceCache& face : known) face.samples.reset();
         continue;
@@ -105,13 +105,14 @@ class Judge {
 
   /// May the cells in which what is reachable ends tell whether what is needed is covered? They count whole where they are open, and
   /// as their middle is where they are measured.
-  [[nodiscard]] bool border_decides(double least, const std::vector<FaceCache>& known) const {
+  [[nodiscard]] bool border_decides(double least, const std::vector<JudgedFace>& faces,
+                                    const std::vector<FaceCache>& known) const {
     const double sure = report_.coverage_reachable_bound.value_or(report_.coverage_reachable);
     if (!keep_ || fine_ || report_.overcut_bound_mm > report_.tolerance_mm || sure >= least) return false;
     double border = 0.0;
-    for (const FaceCache& face : known)
-      if (face.samples)
-        for (const std::size_t i : reach_border(*face.samples)) border += face.samples->areas[i];
+    for (std::size_t k = 0; k < known.size(); ++k)
+      if (const auto& samples = known[k].samples)
+        for (const std::size_t i : reach_border(*samples)) border += faces[k].copies * samples->areas[i];
     return report_.coverage_reachable + share_of(border, reachable_mm2_) >= least;
   }
 
@@ -172,7 +173,7 @@ class Judge {
       });
     }
     FaceResult result{tally.verdict(), tally.sums(), tally.worst()};
-    result.verdict.cover_cells = looked;
+    result.verdict.cover_cells = looked, result.verdict.copies = face.copies;
     complete(result, face, tally.separation(), known);
     return result;
   }
@@ -209,7 +210,7 @@ class Judge {
   void add(const FaceResult& result, Sums& totals) {
     const FaceVerdict& verdict = result.verdict;
     if (verdict.target) {
-      totals += result.sums;
+      totals.add(result.sums, verdict.copies);
       report_.overcut_mm = std::max(report_.overcut_mm, verdict.overcut_mm);
       report_.undercut_mm = std::max(report_.undercut_mm, verdict.undercut_mm);
       report_.undercut_covered_mm = std::max(report_.undercut_covered_mm, verdict.undercut_covered_mm);

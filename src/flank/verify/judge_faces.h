@@ -19,6 +19,7 @@ struct JudgedFace {
   /// runs, of cells that are a part of the others' size.
   std::function<void(std::size_t tile, bool fine, const std::function<void(const FaceSamples&)>& use)> samples;
   const FaceShape* shape = nullptr;  ///< null: not known, so nothing is proved
+  int copies = 1;                    ///< as FaceVerdict's
 };
 
 /// The shares of the targets' area, of what is reachable and of the whole, that are asked for; 0: none.

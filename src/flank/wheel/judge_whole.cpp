@@ -26,11 +26,11 @@ namespace {
 
 constexpr double kDraftSamples = 3e4;  ///< of a draft, on all faces together
 
-/// The hub and one sector's blades: each target more costs memory for what is open of it, and the other blades are their copies. They
-/// are still among the faces that must not be cut.
+/// The hub and all blades; of equal ones those of one sector, which count for all: each target more costs memory for what is open of it.
+/// The others are still among the faces that must not be cut.
 std::vector<std::string> flow_faces(const WheelWork& work) {
   std::vector<std::string> out = work.roles.hub;
-  for (const WheelBlade& blade : work.sector.blades) {
+  for (const WheelBlade& blade : work.equal() ? work.sector.blades : work.roles.blades) {
     const std::vector<std::string> own = blade.flow();
     out.insert(out.end(), own.begin(), own.end());
   }
@@ -86,7 +86,7 @@ Result judged_path(const WheelWork& work, const std::vector<std::string>& faces,
   job.judge.reach_radius_mm = kOpenBall * work.job.tolerance_mm;
   job.obstacles = obstacle_request(work);
   Setup setup = read_setup(job.part, job.obstacles, job.tolerance_mm, result.notes);
-  if (care == Care::kFull) stand_lacking(*read_wheel_plan(work.job.folder), setup);
+  if (care == Care::kFull) stand_whole(*read_wheel_plan(work.job.folder), setup);
   if (care == Care::kDraft) job.judge.sample_mm = coarse_spacing(setup, kDraftSamples);
   describe(job, setup, tool == "T2" ? *work.rough_tool : *work.tool, std::move(path), result);
   // Small faces beside large ones: each has samples enough only where no spacing is given for all.
@@ -136,7 +136,7 @@ std::vector<RoleFigures> role_figures(const WheelRoles& roles, const VerifyRepor
     sum.cut_mm = std::max(sum.cut_mm, face.overcut_mm);
     sum.area_mm2 += face.area_mm2;
     if (!face.target) continue;
-    const double open = face.reachable_share * face.area_mm2;
+    const double open = face.copies * face.reachable_share * face.area_mm2;
     sum.open_mm2 += open;
     sum.within_mm2 += face.coverage_reachable * open;
     sum.left_mm = std::max(sum.left_mm, face.undercut_mm);

@@ -134,7 +134,7 @@ Verification judge_path(const VerifyJob& request, const Job& job, const std::str
   std::vector<std::string> repairs;  // told when the folder was made
   Setup setup = read_setup(machined(job), job.obstacles, job.tolerance_mm, repairs);
   const std::optional<WheelPlan> plan = read_wheel_plan(request.folder);
-  if (plan) stand_lacking(*plan, setup);
+  if (plan) stand_whole(*plan, setup);
   outcome.notes.assign(repairs.begin() + static_cast<std::ptrdiff_t>(setup.part.repairs.size()), repairs.end());
   if (request.obstacles.shank == "auto") {
     ObstacleRequest chosen = request.obstacles;

@@ -94,7 +94,7 @@ Verification judge_wheel_program(const VerifyJob& request, const WheelPlan& plan
       all.job);
   std::vector<std::string> repairs;
   Setup setup = read_setup(question.part, question.obstacles, question.tolerance_mm, repairs);
-  stand_lacking(plan, setup);
+  stand_whole(plan, setup);
   const Runs runs = run_all(request, question, setup, steps, machine, operations, all);
   std::vector<std::string> folders;
   for (const WheelStep* step : steps) folders.push_back(step->folder);

@@ -44,20 +44,26 @@ std::string inside(const std::string& folder, const JsonInput& name) {
   return (fs::path(folder) / path).string();
 }
 
+std::vector<std::string> names_of(const JsonInput& json) {
+  std::vector<std::string> out;
+  for (std::size_t k = 0; k < json.size(); ++k) out.push_back(json.element(k).text());
+  return out;
+}
+
 WheelStep step_of(const std::string& folder, const JsonInput& json, const nlohmann::json& raw) {
   WheelStep step;
   step.id = json.member("id").text(), step.kind = json.member("kind").text();
   step.done = truth_of(json, raw, "done");
   if (step.done) step.folder = inside(folder, json.member("folder"));
   step.copies = count_of(json.member("copies"));
+  if (json.has("faces")) step.faces = names_of(json.member("faces"));
   if (json.has("problem")) step.problem = json.member("problem").text();
   return step;
 }
 
 LackingBlade lacking_of(const JsonInput& json) {
   LackingBlade blade;
-  const JsonInput faces = json.member("faces");
-  for (std::size_t k = 0; k < faces.size(); ++k) blade.faces.push_back(faces.element(k).text());
+  blade.faces = names_of(json.member("faces"));
   blade.turns = json.member("turns").integer();
   return blade;
 }
@@ -101,8 +107,7 @@ std::optional<WheelPlan> read_wheel_plan(const std::string& folder) {
     for (std::size_t k = 0; k < lacking.size(); ++k) plan.lacking.push_back(lacking_of(lacking.element(k)));
   }
   if (json.has("left_out")) {
-    const JsonInput left_out = json.member("left_out");
-    for (std::size_t k = 0; k < left_out.size(); ++k) plan.left_out.push_back(left_out.element(k).text());
+    plan.left_out = names_of(json.member("left_out"));
   }
   const JsonInput steps = json.member("operations");
   for (std::size_t k = 0; k < steps.size(); ++k)
@@ -110,9 +115,12 @@ std::optional<WheelPlan> read_wheel_plan(const std::string& folder) {
   return plan;
 }
 
-void stand_lacking(const WheelPlan& plan, Setup& setup) {
+void stand_whole(const WheelPlan& plan, Setup& setup) {
   constexpr double kChordShare = 0.1;  ///< of the tolerance
   const Part& part = setup.part;
+  for (const WheelStep& step : plan.steps)
+    if (plan.whole && (step.kind == "side" || step.kind == "edge" || step.kind == "fillet"))
+      for (const int face : faces_named(part, step.faces)) setup.copies[face] = step.copies;
   for (const LackingBlade& blade : plan.lacking) {
     TriangleMesh body;
     for (const int face : faces_named(part, blade.faces))

@@ -12,9 +12,10 @@
 namespace flank::internal {
 
 struct WheelStep {
-  std::string id, kind;  ///< "10", "rough"
-  std::string folder;    ///< of its result, beside the working folder
-  int copies = 1;        ///< its path and the turned ones
+  std::string id, kind;            ///< "10", "rough"
+  std::string folder;              ///< of its result, beside the working folder
+  int copies = 1;                  ///< its path and the turned ones
+  std::vector<std::string> faces = {};  ///< of one sector
   bool done = false;
   std::string problem;  ///< why it is not done
 };
@@ -41,9 +42,9 @@ struct WheelPlan {
 /// None where the folder has no plan.json. Throws InputError, naming file and key, for one that cannot be used.
 [[nodiscard]] std::optional<WheelPlan> read_wheel_plan(const std::string& folder);
 
-/// Stands the blades that the part lacks on it: what they cover need not be finished. Throws InputError for faces that the part does not
-/// have.
-void stand_lacking(const WheelPlan& plan, Setup& setup);
+/// Stands the blades that the part lacks on it: what they cover need not be finished. Faces of a blade that others are copies of count as
+/// often as the part has them. Throws InputError for faces that the part does not have.
+void stand_whole(const WheelPlan& plan, Setup& setup);
 
 /// Throws InputError where the path is not that of the finishing steps and their copies: `file` is for the message.
 void require_steps_make(const WheelPlan& plan, const Path& path, const std::string& file);
