@@ -24,6 +24,10 @@ struct Setup {
   double allowance_mm = 0.0;          ///< left on the faces of the part on purpose, >= 0
   /// Of a target that stands for equal ones, such as a side of a wheel's blade: how many there are, itself among them.
   std::map<int, int> copies = {};
+  [[nodiscard]] int copies_of(int target) const {
+    const auto found = copies.find(target);
+    return found != copies.end() ? found->second : 1;
+  }
   /// Bodies that stand on the part where all is there, such as blades that a piece of a wheel lacks: what they cover is not accessible.
   /// They may be open where they stand.
   std::vector<TriangleMesh> standing = {};

@@ -168,8 +168,8 @@ FinerReach finer_reach(const Setup& setup, const TargetReach& reach, const std::
     for (std::size_t i = 0; i < samples[j].points.size(); i += step) which.push_back(i);
     append(few, samples[j], which);
     const std::vector<double> radii = reach.largest_balls(setup.targets[j], few);
-    for (std::size_t i = 0; i < radii.size(); ++i)
-      balls.emplace_back(radii[i], few.areas[i] * static_cast<double>(step));
+    const double times = static_cast<double>(step) * setup.copies_of(setup.targets[j]);
+    for (std::size_t i = 0; i < radii.size(); ++i) balls.emplace_back(radii[i], few.areas[i] * times);
   }
   std::sort(balls.begin(), balls.end(), std::greater());
   double all = 0.0, reached = 0.0;

@@ -74,6 +74,7 @@ Path passes_along(WheelWork& work, const std::string& kind, const Names& faces, 
     PointOptions options = work.point_options({name});
     options.is_finished = is_finished;
     options.left_by_flank = left;
+    options.joins_flank = kind == "fillet";
     for (Strip& strip : face_passes(*face, place, work.tool->radial, options, kind, name))
       out.strips.push_back(std::move(strip));
   }

@@ -5,7 +5,9 @@
 
 #include <cmath>
 
+#include "flank/geom/tessellate.h"
 #include "flank/geom/triangle_bvh.h"
+#include "verify/faces.h"
 
 namespace flank::internal {
 namespace {
@@ -68,6 +70,29 @@ TEST(AxisField, TheDirectionsAroundAPlaceAreThoseOfItsNodesTheNearestFirst) {
     EXPECT_EQ(around[1], field.around(far, 0.0)[0]) << row;
     for (const Vec3& axis : around) EXPECT_NEAR(axis.norm(), 1.0, 1e-12);
   }
+}
+
+/// Beside a wall, with a wish that leans into it.
+TEST(AxisField, APlacesOwnDirectionIsTheNearestToTheWishThatHasRoom) {
+  Face wall = test::plane_face("F1", 40.0, 40.0);
+  for (Vec3& pole : wall.surface.poles) pole = Vec3(3.0, pole.x() - 20.0, pole.z());
+  const std::unique_ptr<Target> target = make_target({wall});
+  const TriangleBvh coarse(tessellate(wall, {.chord_mm = 0.01}).mesh);
+  FloorChannel channel;
+  channel.walls = {target.get()};
+  channel.coarse = &coarse;
+  const RadialFunction radial{ToolFamily::kCylinder, 8.0, Eigen::VectorXd::Constant(1, 1.5)};
+  const TipRoom room(channel, radial, {});
+  const Vec3 wish = Vec3(0.5, 0.3, 0.8).normalized();
+  const std::optional<Vec3> axis = AxisField::nearest_free(room, {Vec3(1.4, 0.0, 20.0), Vec3::UnitZ(), 0.0}, wish, 0.0);
+  ASSERT_TRUE(axis);
+  EXPECT_TRUE(room.is_free({Vec3(1.4, 0.0, 20.0), *axis}));
+  EXPECT_FALSE(room.is_free({Vec3(1.4, 0.0, 20.0), wish}));
+  EXPECT_LT(axis->x(), 0.02);
+  EXPECT_GT(axis->y(), 0.0) << "on the wish's side of all that have room";
+  EXPECT_GT(axis->dot(wish), 0.75);
+  EXPECT_FALSE(AxisField::nearest_free(room, {Vec3(2.0, 0.0, 20.0), Vec3::UnitZ(), 0.0}, wish, 0.0))
+      << "the tip itself enters the wall";
 }
 
 TEST(TiltCone, TheNearestDirectionIsOnItsRim) {

@@ -45,14 +45,14 @@ struct Edge {
   /// `tilt_deg`: of the axis from +y, at most; none: any.
   [[nodiscard]] std::vector<Strip> passes(
       bool finished, std::optional<double> tilt_deg = {},
-      const std::function<std::optional<SurfaceLeft>(const Vec3&)>& left_by_flank = {}) const {
+      const std::function<std::optional<SurfaceLeft>(const Vec3&)>& left_by_flank = {}, bool joins = false) const {
     FloorChannel around;
     around.walls = {target.get()};
     around.coarse = &coarse;
     PointOptions options;
     options.tolerance_mm = kTolerance;
     if (tilt_deg) options.held = {Vec3::UnitY(), *tilt_deg * M_PI / 180.0};
-    options.left_by_flank = left_by_flank;
+    options.left_by_flank = left_by_flank, options.joins_flank = joins;
     if (finished) options.is_finished = [](const Vec3&) { return true; };
     return face_passes(face, around, tool.radial, options, "edge", "F1");
   }
@@ -123,6 +123,24 @@ TEST(FacePasses, GoOnAlongTheBorderFromWhatTheFlankHasLeft) {
     }
   EXPECT_GT(joined, 20);
   EXPECT_GT(alone, 4);
+}
+
+/// Scallops of other passes end at a border of a fillet within the tolerance, and as a step beside what the flank has left.
+TEST(FacePasses, JoinTheFlankWhereAllIsFinishedToo) {
+  const Edge edge;
+  const auto left = [&](const Vec3& x) -> std::optional<SurfaceLeft> {
+    if (x.z() > 0.5 * kSpan) return {};
+    return SurfaceLeft{0.0, edge.target->closest(x).normal};
+  };
+  EXPECT_TRUE(edge.passes(true, {}, left).empty());
+  const std::vector<Strip> strips = edge.passes(true, {}, left, true);
+  ASSERT_EQ(strips.size(), 2U) << "one along each border";
+  for (const Strip& strip : strips) {
+    const auto [low, high] = std::minmax(strip.poses.front().tip.z(), strip.poses.back().tip.z());
+    EXPECT_LT(low, 0.1);
+    EXPECT_NEAR(high, 0.5 * kSpan, 3.0) << "no farther than where the flank ends";
+    for (const Pose& pose : strip.poses) EXPECT_LT(std::abs(std::abs(pose.tip.y()) - kEdge - kTip), 0.02);
+  }
 }
 
 /// Half of the border's length is beside a side on which the flank has left material: passes close to it would cut into that.

@@ -126,9 +126,8 @@ std::vector<verify::JudgedFace> JudgedShapes::judged(const Setup& setup, const T
       if (target && reach != nullptr) reach->fill(face, here);
       use(fine && target && reach != nullptr ? with_fine_border(*sampler, *reach, face, here) : here);
     };
-    const auto copies = setup.copies.find(face);
     out.push_back({setup.part.face_id(face), target, sampler->size_mm(), sampler->tiles(), samples,
-                   proofs ? &shapes_[k] : nullptr, copies != setup.copies.end() ? copies->second : 1});
+                   proofs ? &shapes_[k] : nullptr, setup.copies_of(face)});
   }
   return out;
 }

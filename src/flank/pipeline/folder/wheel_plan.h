@@ -12,9 +12,9 @@
 namespace flank::internal {
 
 struct WheelStep {
-  std::string id, kind;            ///< "10", "rough"
-  std::string folder;              ///< of its result, beside the working folder
-  int copies = 1;                  ///< its path and the turned ones
+  std::string id, kind;                 ///< "10", "rough"
+  std::string folder;                   ///< of its result, beside the working folder
+  int copies = 1;                       ///< its path and the turned ones
   std::vector<std::string> faces = {};  ///< of one sector
   bool done = false;
   std::string problem;  ///< why it is not done

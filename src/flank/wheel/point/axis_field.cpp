@@ -11,7 +11,8 @@ namespace flank::internal {
 namespace {
 
 constexpr int kTilts = 8, kRound = 24;  ///< directions that are tried: tilts from the normal, and turns about it
-constexpr double kTilt = 10.0;          ///< degrees between tilts; the least keeps the contact off the tip's pole
+constexpr std::size_t kDirections = kTilts * kRound;
+constexpr double kTilt = 10.0;  ///< degrees between tilts; the least keeps the contact off the tip's pole
 constexpr int kChoices = 30, kSmoothings = 12;  ///< rounds over all nodes
 constexpr double kShortOfRoom = 4.0;            ///< radians that neighbours may differ for a millimetre of room more
 
@@ -36,6 +37,14 @@ Span span_of(double at, int count) {
 
 double angle_of(const Vec3& a, const Vec3& b) { return 2.0 * std::atan2((a - b).norm(), (a + b).norm()); }
 
+/// The k-th one about a normal.
+Vec3 direction(const Vec3& normal, std::size_t k) {
+  const double tilt = kTilt * (1.0 + static_cast<double>(k / kRound)) * std::numbers::pi / 180.0,
+               round = 2.0 * std::numbers::pi * static_cast<double>(k % kRound) / kRound;
+  const Vec3 e = normal.unitOrthogonal(), f = normal.cross(e);
+  return std::cos(tilt) * normal + std::sin(tilt) * (std::cos(round) * e + std::sin(round) * f);
+}
+
 }  // namespace
 
 AxisField::AxisField(const TipRoom& room, const std::vector<std::optional<TipRoom::Rest>>& places, int rows,
@@ -51,13 +60,6 @@ AxisField::AxisField(const TipRoom& room, const std::vector<std::optional<TipRoo
   smooth(room);
 }
 
-Vec3 AxisField::direction(const Node& node, std::size_t k) const {
-  const double tilt = kTilt * (1.0 + static_cast<double>(k / kRound)) * std::numbers::pi / 180.0,
-               round = 2.0 * std::numbers::pi * static_cast<double>(k % kRound) / kRound;
-  const Vec3 e = node.normal.unitOrthogonal(), f = node.normal.cross(e);
-  return std::cos(tilt) * node.normal + std::sin(tilt) * (std::cos(round) * e + std::sin(round) * f);
-}
-
 bool AxisField::takes(const TipRoom& room, const Vec3& axis, Node& node) {
   const double here = room.rough_room({node.center, axis}, kRoomEnough);
   if (here <= kRoomEnough) return false;
@@ -66,11 +68,11 @@ bool AxisField::takes(const TipRoom& room, const Vec3& axis, Node& node) {
 }
 
 void AxisField::look(const TipRoom& room, Node& node) const {
-  node.rooms.resize(kTilts * kRound);
+  node.rooms.resize(kDirections);
   for (std::size_t k = 0; k < node.rooms.size(); ++k) {
     // What enters something by far need not be known closely.
-    node.rooms[k] = room.rough_room({node.center, direction(node, k)}, -2.0 * TipRoom::kEnoughMm);
-    if (node.rooms[k] > node.room) node.room = node.rooms[k], node.axis = direction(node, k);
+    node.rooms[k] = room.rough_room({node.center, direction(node.normal, k)}, -2.0 * TipRoom::kEnoughMm);
+    if (node.rooms[k] > node.room) node.room = node.rooms[k], node.axis = direction(node.normal, k);
   }
 }
 
@@ -96,7 +98,7 @@ void AxisField::choose() {
       const std::vector<std::size_t> others = beside(n);
       double least = 1e300;
       for (std::size_t k = 0; k < node.rooms.size(); ++k) {
-        const Vec3 axis = direction(node, k);
+        const Vec3 axis = direction(node.normal, k);
         const double lack = kShortOfRoom * (TipRoom::kEnoughMm - node.rooms[k]);
         double cost = static_cast<double>(others.size()) * lack * lack;
         for (const std::size_t other : others) {
@@ -162,6 +164,18 @@ std::array<Vec3, 4> AxisField::around(double row, double column) const {
   const auto axis = [&](int r, int c) { return nodes_[static_cast<std::size_t>(r * columns_ + c)].axis; };
   return {axis(row_near, column_near), axis(row_far, column_near), axis(row_near, column_far),
           axis(row_far, column_far)};
+}
+
+std::optional<Vec3> AxisField::nearest_free(const TipRoom& room, const TipRoom::Rest& place, const Vec3& wish,
+                                            double deeper_mm) {
+  std::vector<Vec3> axes(kDirections);
+  for (std::size_t k = 0; k < kDirections; ++k) axes[k] = direction(place.normal, k);
+  std::stable_sort(axes.begin(), axes.end(), [&](const Vec3& a, const Vec3& b) { return a.dot(wish) > b.dot(wish); });
+  const auto free = std::find_if(axes.begin(), axes.end(), [&](const Vec3& axis) {
+    const Pose pose{place.center, axis};
+    return room.rough_room(pose, 0.0) > 0.0 && room.is_free(pose, deeper_mm);
+  });
+  return free != axes.end() ? std::optional(*free) : std::nullopt;
 }
 
 double AxisField::least_room() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "flank/wheel/point/tip_room.h"
@@ -21,6 +22,9 @@ class AxisField {
   [[nodiscard]] Vec3 at(double row, double column) const;
   /// Of the four nodes around, the nearest one first: what lies between directions with room may have none.
   [[nodiscard]] std::array<Vec3, 4> around(double row, double column) const;
+  /// Of the directions that a node tries, the one nearest to a wish with which the tip has room at a place; none: none of them has.
+  [[nodiscard]] static std::optional<Vec3> nearest_free(const TipRoom& room, const TipRoom::Rest& place,
+                                                        const Vec3& wish, double deeper_mm);
   /// Least room of the nodes that are there, as rough_room() counts, mm.
   [[nodiscard]] double least_room() const;
 
@@ -37,7 +41,6 @@ class AxisField {
   void choose();
   void smooth(const TipRoom& room);
   void fill();
-  [[nodiscard]] Vec3 direction(const Node& node, std::size_t k) const;
   [[nodiscard]] std::vector<std::size_t> beside(std::size_t k) const;
 
   int rows_, columns_;

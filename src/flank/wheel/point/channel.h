@@ -52,6 +52,7 @@ struct PointOptions {
   std::function<bool(const Vec3&)> is_finished = {};
   /// What the flank has left at a place of a face's border, which a pass along it goes on smoothly from; empty: nothing.
   std::function<std::optional<SurfaceLeft>(const Vec3&)> left_by_flank = {};
+  bool joins_flank = false;  ///< a pass that goes on so is made where all is finished, too
 };
 
 }  // namespace flank::internal

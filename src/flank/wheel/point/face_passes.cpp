@@ -88,7 +88,9 @@ std::optional<Pose> pose_at(const Work& work, std::size_t line, double place) {
   if (work.room.is_free(smooth, joint.deeper_mm)) return smooth;
   for (const Vec3& axis : work.field.around(row, column))
     if (const Pose pose{tip, axis}; work.room.is_free(pose, joint.deeper_mm)) return pose;
-  return {};
+  // A place smaller than the net's cells, as beside the foot of a post.
+  const auto own = AxisField::nearest_free(work.room, {tip, here->normal, 0.0}, smooth.axis, joint.deeper_mm);
+  return own ? std::optional(Pose{tip, *own}) : std::nullopt;
 }
 
 /// The last pose with room from a place that has it to one that has none.
@@ -105,13 +107,15 @@ Pose last_with_room(const Work& work, std::size_t line, double good, double bad,
 
 /// Places of a line that need a pass: what is not finished, a neighbour on either side, and what lies between two of them that a link
 /// would take longer to leave out.
-std::vector<char> needed(const FaceLines& lines, const PointOptions& options, std::size_t line) {
+std::vector<char> needed(const FaceLines& lines, const FlankJoints& joints, const PointOptions& options,
+                         std::size_t line) {
   const std::size_t count = lines.places(), gap = static_cast<std::size_t>(kLinkMm / kStepMm);
   std::vector<char> out(count, 0);
   std::size_t after_last = 0;  // the place after the last one that is open; 0: none yet
   for (std::size_t k = 0; k < count; ++k) {
     const auto place = lines.at(line, static_cast<double>(k));
-    if (!place || (options.is_finished && options.is_finished(place->point))) continue;
+    const bool joins = options.joins_flank && joints.joins(line, k);
+    if (!place || (!joins && options.is_finished && options.is_finished(place->point))) continue;
     const std::size_t from = after_last > 0 && k - after_last <= gap ? after_last : k - std::min<std::size_t>(k, 1);
     for (std::size_t i = from; i < std::min(count, k + 2); ++i) out[i] = 1;
     after_last = k + 1;
@@ -146,11 +150,11 @@ std::vector<Strip> face_passes(const Face& face, const FloorChannel& around, con
                                const PointOptions& options, const std::string& kind, const std::string& name) {
   const TipRoom room(around, radial, options);
   const FaceLines lines(face, room.tip_mm(), options.scallop_share * options.tolerance_mm, kStepMm);
+  const FlankJoints joints(lines, room, options.left_by_flank);
   AskedPlaces wanted(lines.lines());
-  parallel_for(wanted.size(), [&](std::size_t line) { wanted[line] = needed(lines, options, line); });
+  parallel_for(wanted.size(), [&](std::size_t line) { wanted[line] = needed(lines, joints, options, line); });
   const Net net(lines);
   const AxisField field = field_of(lines, room, net, wanted);
-  const FlankJoints joints(lines, room, options.left_by_flank);
   const Work work{lines, room, field, net, joints};
   std::vector<PoseRow> found(lines.lines());
   parallel_for(found.size(), [&](std::size_t line) { found[line] = row_of(work, line, wanted[line]); });

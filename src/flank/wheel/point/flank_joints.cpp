@@ -55,6 +55,13 @@ FlankJoints::FlankJoints(const FaceLines& lines, const TipRoom& room, const Left
         moves_[n] = up_to_clear(static_cast<double>(k), *here, kNearMm) > 0.0 ? 1 : 0;
 }
 
+bool FlankJoints::joins(std::size_t line, std::size_t place) const {
+  const auto flank_is_near = [&](const Border& border) {
+    return place * kSteps < border.size() && border[place * kSteps].off_mm > 0.0;
+  };
+  return (line == 0 && flank_is_near(borders_[0])) || (line + 1 == moves_.size() && flank_is_near(borders_[1]));
+}
+
 FlankJoints::Shift FlankJoints::on_border(const Border& border, double place) const {
   const double step = std::clamp(place * static_cast<double>(kSteps), 0.0, static_cast<double>(border.size()) - 1.0);
   const auto k = static_cast<std::size_t>(step);

@@ -27,6 +27,8 @@ class FlankJoints {
     double deeper_mm = 0.0;
   };
   [[nodiscard]] Shift at(std::size_t line, double place, const FaceLines::Place& here) const;
+  /// Whether a line goes on from the flank at one of its places.
+  [[nodiscard]] bool joins(std::size_t line, std::size_t place) const;
   /// Poses for each place of a line: chords between few would turn the surface's normal at the border.
   [[nodiscard]] std::size_t steps(std::size_t line) const { return moves_[line] != 0 ? kSteps : 1; }
 
