@@ -68,7 +68,7 @@ TEST_F(CliProgram, PostsAndJudgesForEveryMachine) {
   const json planned = json::parse(read_file(root_ / "fit/verify.json"));
   const std::string before = read_file(root_ / "fit/verify.json");
   for (const char* machine : {"linuxcnc-xyzac-trt", "linuxcnc-xyzbc-trt", "fanuc-ac", "siemens-ac", "heidenhain-ac",
-                              "joint-ac", "fanuc-head-table-bc", "heidenhain-head-head-ca"}) {
+                              "joint-ac", "joint-bc", "fanuc-head-table-bc", "heidenhain-head-head-ca"}) {
     SCOPED_TRACE(machine);
     const Outcome posted = flank(joined(post(machine), {"--json"}));
     ASSERT_EQ(posted.exit_code, 0) << posted.err << posted.out;

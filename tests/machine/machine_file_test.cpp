@@ -47,7 +47,7 @@ void expect_refused(const std::string& text, const std::string& a, const std::st
 TEST(MachineFile, AllThatAreShippedReadAndAreListed) {
   const std::vector<std::string> names = machine_names();
   for (const char* wanted : {"linuxcnc-xyzac-trt", "linuxcnc-xyzbc-trt", "fanuc-ac", "siemens-ac", "heidenhain-ac",
-                             "joint-ac", "fanuc-head-table-bc", "heidenhain-head-head-ca"})
+                             "joint-ac", "joint-bc", "fanuc-head-table-bc", "heidenhain-head-head-ca"})
     EXPECT_NE(std::find(names.begin(), names.end(), wanted), names.end()) << wanted;
   for (const std::string& name : names) {
     const Machine machine = read_machine(name);

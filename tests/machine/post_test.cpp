@@ -200,7 +200,7 @@ constexpr std::pair<int, double> kAcross[] = {{41, 0.0},  {41, 1e-9}, {41, 1e-6}
 
 // Through the singular direction, exactly and by a hair: it runs, the tool stays on its path, no joint is too fast.
 TEST(Post, RunsAcrossTheSingularCone) {
-  for (const char* name : {"fanuc-ac", "linuxcnc-xyzac-trt", "joint-ac", "heidenhain-head-head-ca"})
+  for (const char* name : {"fanuc-ac", "linuxcnc-xyzac-trt", "joint-ac", "joint-bc", "heidenhain-head-head-ca"})
     for (const auto& [poses, miss] : kAcross) {
       const Machine machine = read_machine(name);
       const Path path = paths::across_the_cone(poses, miss);

@@ -44,6 +44,10 @@ struct Work {
   const AxisField& field;
   const Net& net;
   const FlankJoints& joints;
+  double most_turn_rad;  ///< of the axis from one pose to the next one
+  [[nodiscard]] bool goes_on(const Pose& a, const Pose& b) const {
+    return a.axis.dot(b.axis) > std::cos(most_turn_rad);
+  }
 };
 
 /// Whether a place within a node's cells needs a pass: other nodes need no direction.
@@ -76,8 +80,8 @@ AxisField field_of(const FaceLines& lines, const TipRoom& room, const Net& net, 
   return {room, places, net.rows, net.columns};
 }
 
-/// A pose with room at a place; none beside the face, and where no direction of the field has any.
-std::optional<Pose> pose_at(const Work& work, std::size_t line, double place) {
+/// A pose with room at a place; none beside the face, and where no direction has any. `beside`: a pose of the same pass, null: none.
+std::optional<Pose> pose_at(const Work& work, std::size_t line, double place, const Pose* beside) {
   const std::optional<FaceLines::Place> here = work.lines.at(line, place);
   if (!here) return {};
   const FlankJoints::Shift joint = work.joints.at(line, place, *here);
@@ -89,15 +93,18 @@ std::optional<Pose> pose_at(const Work& work, std::size_t line, double place) {
   for (const Vec3& axis : work.field.around(row, column))
     if (const Pose pose{tip, axis}; work.room.is_free(pose, joint.deeper_mm)) return pose;
   // A place smaller than the net's cells, as beside the foot of a post.
-  const auto own = AxisField::nearest_free(work.room, {tip, here->normal, 0.0}, smooth.axis, joint.deeper_mm);
+  const Vec3& wish = beside != nullptr ? beside->axis : smooth.axis;
+  if (const Pose pose{tip, wish}; work.room.is_free(pose, joint.deeper_mm)) return pose;
+  const auto own = AxisField::nearest_free(work.room, {tip, here->normal, 0.0}, wish, joint.deeper_mm);
   return own ? std::optional(Pose{tip, *own}) : std::nullopt;
 }
 
-/// The last pose with room from a place that has it to one that has none.
+/// The last pose with room, and no other axis, from a place that has it to one that has none.
 Pose last_with_room(const Work& work, std::size_t line, double good, double bad, Pose pose) {
   for (int k = 0; k < kHalvings; ++k) {
     const double middle = 0.5 * (good + bad);
-    if (const std::optional<Pose> there = pose_at(work, line, middle))
+    const std::optional<Pose> there = pose_at(work, line, middle, &pose);
+    if (there && work.goes_on(pose, *there))
       good = middle, pose = *there;
     else
       bad = middle;
@@ -123,20 +130,25 @@ std::vector<char> needed(const FaceLines& lines, const FlankJoints& joints, cons
   return out;
 }
 
+/// A pass ends where its room does, and where its axis would have to jump.
 PoseRow row_of(const Work& work, std::size_t line, const std::vector<char>& wanted) {
   const std::size_t steps = work.joints.steps(line);
   const double step = 1.0 / static_cast<double>(steps);
   const auto asked = [&](std::size_t k) { return wanted[k / steps] != 0 && wanted[(k + steps - 1) / steps] != 0; };
   PoseRow out;
   std::optional<Pose> last;
+  const auto end_of = [&](const Pose& known, double good, double bad) {
+    const Pose end = last_with_room(work, line, good, bad, known);
+    if ((end.tip - known.tip).norm() > kLeastMm) out.emplace_back(end);
+  };
   for (std::size_t k = 0; k < (wanted.size() - 1) * steps + 1; ++k) {
     const double place = static_cast<double>(k) * step;
-    const std::optional<Pose> pose = asked(k) ? pose_at(work, line, place) : std::nullopt;
-    const bool free = pose.has_value();
-    if (k > 0 && asked(k) && asked(k - 1) && free != last.has_value()) {
-      const Pose& known = free ? *pose : *last;
-      const Pose end = last_with_room(work, line, free ? place : place - step, free ? place - step : place, known);
-      if ((end.tip - known.tip).norm() > kLeastMm) out.emplace_back(end);
+    const std::optional<Pose> pose = asked(k) ? pose_at(work, line, place, last ? &*last : nullptr) : std::nullopt;
+    const bool goes_on = last && pose && work.goes_on(*last, *pose);
+    if (k > 0 && asked(k) && asked(k - 1) && !goes_on) {
+      if (last) end_of(*last, place - step, place);
+      if (last && pose) out.emplace_back();
+      if (pose) end_of(*pose, place, place - step);
     }
     last = pose;
     out.push_back(last);
@@ -155,7 +167,7 @@ std::vector<Strip> face_passes(const Face& face, const FloorChannel& around, con
   parallel_for(wanted.size(), [&](std::size_t line) { wanted[line] = needed(lines, joints, options, line); });
   const Net net(lines);
   const AxisField field = field_of(lines, room, net, wanted);
-  const Work work{lines, room, field, net, joints};
+  const Work work{lines, room, field, net, joints, options.most_turn_rad};
   std::vector<PoseRow> found(lines.lines());
   parallel_for(found.size(), [&](std::size_t line) { found[line] = row_of(work, line, wanted[line]); });
   std::vector<Strip> out;
