@@ -61,7 +61,7 @@ double slowest_tenth(const std::string& motion) {
 
 void expect_no_crawl(const std::string& folder) {
   constexpr double kFeed = 1000.0;
-  for (const char* machine : {"fanuc-ac", "siemens-ac", "linuxcnc-xyzac-trt"}) {
+  for (const char* machine : {"siemens-ac", "linuxcnc-xyzac-trt"}) {
     PostJob job;
     job.folder = folder;
     job.machine = machine;
