@@ -66,6 +66,42 @@ TEST_P(SetupSearchOn, DoesNotCountWhatLinksTurn) {
   EXPECT_LT(range_of(machine_, *found.setup, round_a_pocket(), 1), 1e-6);
 }
 
+/// Between two walls, to and fro, with the axis upright but for some degrees; and, where it is said, four poses at which it leans by 34
+/// degrees, each between two of those that all set-ups are tried with.
+std::vector<Pose> between_walls(bool leaning) {
+  std::vector<Pose> poses;
+  for (int k = 0; k <= 1000; ++k) {
+    const double y = std::cos(k * std::numbers::pi / 25.0);
+    poses.push_back({Vec3(0.03 * k - 15.0, 8.0 * y, 0.0), Vec3(0.003, 0.063 * y, 1.0).normalized()});
+  }
+  const Vec3 sides[] = {Vec3::UnitX(), -Vec3::UnitX(), Vec3::UnitY(), -Vec3::UnitY()};
+  for (int n = 0; leaning && n < 4; ++n)
+    for (const int beside : {-1, 0, 1})
+      poses[static_cast<std::size_t>(253 + 100 * n + n / 2 + beside)].axis =
+          (std::tan((beside == 0 ? 34.0 : 17.0) * kRadians) * sides[n] + Vec3::UnitZ()).normalized();
+  return poses;
+}
+
+void expect_held(const Machine& machine, const Kinematics& kinematics, const FoundSetup& found) {
+  ASSERT_TRUE(found.setup) << found.reason;
+  std::vector<MachinePose> placed;
+  for (const Pose& p : between_walls(true)) placed.push_back({found.setup->to_work(p), !placed.empty()});
+  const JointChoice choice = choose_joints(machine, kinematics, placed);
+  EXPECT_FALSE(choice.unreachable) << choice.unreachable->reason;
+}
+
+/// The set-up that was found lay on its side, where a pose that was not looked at is 4 degrees beyond the tilting axis' travel.
+TEST_P(SetupSearchOn, HoldsAllPosesNotOnlyTheFewItTries) {
+  expect_held(machine_, kinematics_, search_setup(machine_, kinematics_, {.poses = between_walls(true)}));
+}
+
+/// And so was one on the way to it from upright, which is known when a set-up is.
+TEST_P(SetupSearchOn, HoldsWaysThatDependOnTheSetUp) {
+  SetupSearch search{.poses = between_walls(false)};
+  search.whole = [](const WorkSetup&) { return std::vector<std::vector<Pose>>{between_walls(true)}; };
+  expect_held(machine_, kinematics_, search_setup(machine_, kinematics_, search));
+}
+
 TEST_P(SetupSearchOn, PutsThePartAsItIsClamped) {
   // Lying on its side, so that nothing else would bring it upright.
   const Vec3 up = Vec3(0.0, -0.6, 0.8);

@@ -118,17 +118,34 @@ TEST(CavityNotes, WithoutCyclesTheSidesAreTold) {
 }
 
 TEST(CavityNotes, CancelledWhereTheyWereStuckTheyTellThat) {
+  CoverageEstimate sides;
+  sides.at_tolerance = 0.996;
   PlannedLayer layer;
   layer.cycles.status = CycleStatus::kCancelled;
   layer.cycles.cycles.resize(5);
   layer.share = 0.25;
-  EXPECT_EQ(why_not_done(asked_for(), layer).rfind("the search ended there; roughed and finished over 25.0 %", 0), 0u);
+  EXPECT_EQ(
+      why_not_done(asked_for(), layer, sides).rfind("the search ended there; roughed and finished over 25.0 %", 0), 0u);
   layer.cycles.ends_stuck = true;
-  EXPECT_EQ(why_not_done(asked_for(), layer).rfind("no step within 60 degrees of engagement is free of gouges", 0), 0u);
+  EXPECT_EQ(
+      why_not_done(asked_for(), layer, sides).rfind("no step within 60 degrees of engagement is free of gouges", 0),
+      0u);
   layer.cycles.stuck = {0.0121, 1.0699};
-  EXPECT_NE(why_not_done(asked_for(), layer).find("a step of 0.0121 mm with 61.30 degrees"), std::string::npos);
+  EXPECT_NE(why_not_done(asked_for(), layer, sides).find("a step of 0.0121 mm with 61.30 degrees"), std::string::npos);
+  EXPECT_NE(why_not_done(asked_for(), layer, sides).find("finish 99.6 % of both"), std::string::npos);
   layer.cycles.status = CycleStatus::kDone;
-  EXPECT_TRUE(why_not_done(asked_for(), layer).empty());
+  EXPECT_TRUE(why_not_done(asked_for(), layer, sides).empty());
+}
+
+TEST(CavityNotes, TheLimitOfWorkIsAReasonOfTheLayerThatEndsThere) {
+  Result result = cleared();
+  auto& layers = std::get<TrochoidSummary>(result.plan).layers;
+  layers.push_back(layers.back());
+  layers.back().status = "cancelled";
+  note_limit_of_work(result);
+  EXPECT_EQ(result.notes.size(), 1u);
+  EXPECT_TRUE(layers.front().why.empty());
+  EXPECT_NE(layers.back().why.find("limit of work"), std::string::npos);
 }
 
 TEST(CavityNotes, WhyThereAreNoCyclesIsTold) {

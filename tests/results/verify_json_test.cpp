@@ -209,5 +209,20 @@ TEST(VerifyJson, RefusesOtherText) {
   EXPECT_FALSE(message_of(text).empty());
 }
 
+/// A cavity judged again from its folder met its request with cycles that had ended early.
+TEST(VerifyJson, WhatWasNotPlannedOfACavityIsKept) {
+  Acceptance kept;
+  keep_planned(R"({"reasons": [{"figure": "coverage_reachable", "text": "a"}, {"figure": "cycles", "text": "b"},
+                               {"figure": "engagement", "text": "c"}]})",
+               "summary.json", kept);
+  ASSERT_EQ(kept.reasons.size(), 2u);
+  EXPECT_EQ(kept.reasons[0].text, "b");
+  EXPECT_EQ(kept.reasons[1].figure, "engagement");
+  keep_planned("{}", "summary.json", kept);
+  EXPECT_EQ(kept.reasons.size(), 2u);
+  EXPECT_THROW(keep_planned("no json", "summary.json", kept), InputError);
+  EXPECT_THROW(keep_planned(R"({"reasons": [1]})", "summary.json", kept), InputError);
+}
+
 }  // namespace
 }  // namespace flank::internal

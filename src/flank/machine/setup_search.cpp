@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "flank/error.h"
 
@@ -117,14 +118,13 @@ class Search {
          std::span<const SolidBody> solids)
       : machine_(machine),
         kinematics_(kinematics),
+        asked_(asked),
+        few_(thinned(asked.poses.size())),
         solids_(solids),
         upright_(asked.upright),
         clamping_(asked.clamping) {
-    for (const std::size_t k : thinned(asked.poses.size())) {
-      poses_.push_back(asked.poses[k]);
-      cutting_.push_back(asked.cutting.empty() || asked.cutting[k]);
-      box_.add(asked.poses[k].tip);
-    }
+    take_few();
+    for (const Pose& p : poses_) box_.add(p.tip);
     if (clamping_.centred && !machine_.joints[kinematics_.rotary_joints()[0]].table)
       throw UsageError("clamp", "bore", "needs a machine whose table turns; expected bottom or any");
   }
@@ -179,8 +179,7 @@ class Search {
   enum class Outcome { kFits, kPlace, kDirection };
   Outcome try_one(const WorkSetup& setup) {
     ++found_.tried;
-    std::vector<MachinePose> placed;
-    for (const Pose& p : poses_) placed.push_back({setup.to_work(p), !placed.empty()});
+    const std::vector<MachinePose> placed = placed_in(setup, poses_);
     if (std::string why = not_upright(setup); !why.empty()) {
       found_.reason = std::move(why);
       return Outcome::kPlace;
@@ -195,8 +194,8 @@ class Search {
     const double worth = worth_of(choice);
     // Looked at only where it could win: distances cost more than angles.
     if (found_.setup && worth <= worth_ + 1e-9) return Outcome::kFits;
-    if (const std::optional<BodyHit> hit = first_hit(choice)) {
-      found_.reason = hit_text(machine_, *hit);
+    if (std::string why = not_held_between(setup, choice); !why.empty()) {
+      found_.reason = std::move(why);
       return Outcome::kPlace;
     }
     // Better by more than rounding: else the first stays, for any machine that this runs on.
@@ -214,6 +213,44 @@ class Search {
     if (!upright_) return {};
     const Vec3 up = setup.rotation().transpose() * kinematics_.direction({0.0, 0.0});
     return travel_violation(machine_, kinematics_.joints(setup.to_work(upright_(up)).tip, {0.0, 0.0}));
+  }
+
+  static std::vector<MachinePose> placed_in(const WorkSetup& setup, std::span<const Pose> poses) {
+    std::vector<MachinePose> placed;
+    for (const Pose& p : poses) placed.push_back({setup.to_work(p), !placed.empty()});
+    return placed;
+  }
+
+  void take_few() {
+    poses_.clear();
+    cutting_.clear();
+    for (const std::size_t k : few_) {
+      poses_.push_back(asked_.poses[k]);
+      cutting_.push_back(asked_.cutting.empty() || asked_.cutting[k]);
+    }
+  }
+
+  /// What few poses do not show, of a set-up that would win: a pose that was left out may be beyond a travel, and solids may meet. Empty if
+  /// neither is so. A pose of the path that is so is among the few from then on.
+  std::string not_held_between(const WorkSetup& setup, const JointChoice& choice) {
+    const auto ways = asked_.whole ? asked_.whole(setup) : std::vector<std::vector<Pose>>{asked_.poses};
+    for (const std::vector<Pose>& way : ways)
+      if (const auto missed = choose_joints(machine_, kinematics_, placed_in(setup, way)).unreachable) {
+        look_at(way[missed->pose]);
+        return missed->reason;
+      }
+    const std::optional<BodyHit> hit = first_hit(choice);
+    return hit ? hit_text(machine_, *hit) : std::string();
+  }
+
+  void look_at(const Pose& pose) {
+    const auto same = [&](const Pose& p) { return p.tip == pose.tip && p.axis == pose.axis; };
+    const auto found = std::find_if(asked_.poses.begin(), asked_.poses.end(), same);
+    if (found == asked_.poses.end()) return;
+    const auto index = static_cast<std::size_t>(found - asked_.poses.begin());
+    const auto at = std::lower_bound(few_.begin(), few_.end(), index);
+    if (at == few_.end() || *at != index) few_.insert(at, index);
+    take_few();
   }
 
   /// At the poses alone: the whole motion is judged when it is known.
@@ -274,7 +311,9 @@ class Search {
 
   const Machine& machine_;
   const Kinematics& kinematics_;
-  std::vector<Pose> poses_;
+  const SetupSearch& asked_;
+  std::vector<std::size_t> few_;  ///< poses, ascending: so few that hundreds of tries are quick
+  std::vector<Pose> poses_;       ///< these
   std::span<const SolidBody> solids_;
   const UprightPlace& upright_;
   const Clamping& clamping_;

@@ -24,6 +24,9 @@ struct FoundSetup {
 /// frame) of the tool with the rotary joints at zero.
 using UprightPlace = std::function<Pose(const Vec3&)>;
 
+/// All poses of the controlled point in a set-up, in the part's frame: of each operation and copy, from upright to upright.
+using WholeWays = std::function<std::vector<std::vector<Pose>>(const WorkSetup&)>;
+
 /// How the part can be clamped. Nothing given: any way up, anywhere.
 struct Clamping {
   std::optional<Vec3> up = {};  ///< unit vector of the part that points to the spindle with the rotary joints at zero
@@ -36,14 +39,16 @@ struct SetupSearch {
   std::vector<Pose> poses;         ///< of the controlled point
   std::vector<bool> cutting = {};  ///< of each of them: along a strip, not on a link; empty: all are
   UprightPlace upright = {};       ///< where the machine must reach, too
+  WholeWays whole = {};            ///< none: the poses alone
   Clamping clamping = {};
 };
 
 /// Tries turns of the part: the 24 that keep its axes along the machine's, as far as the clamping lets them, then the path's middle
 /// direction at several tilts; and for each of them places on the table. Among those within all travels wins the one in which most
 /// rotary joints stand still while the tool cuts, that keeps away from the singular direction (up to 30 degrees, and where the second
-/// rotary joint moves), turns its rotary joints least, tilts least, and leaves most of the travels. A path of many poses is thinned. At
-/// none of them may the `solids` meet (body_check.h). Throws UsageError for a part that is to be centred on a table that does not turn.
+/// rotary joint moves), turns its rotary joints least, tilts least, and leaves most of the travels. Of a path of many poses
+/// few are tried, and all of a set-up that would win: at none is a joint beyond its travel. At none of the few may the `solids` meet
+/// (body_check.h). Throws UsageError for a part that is to be centred on a table that does not turn.
 [[nodiscard]] FoundSetup search_setup(const Machine& machine, const Kinematics& kinematics, const SetupSearch& search,
                                       std::span<const SolidBody> solids = {});
 

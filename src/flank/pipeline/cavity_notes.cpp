@@ -120,14 +120,25 @@ void note_what_is_open(const TrochoidJob& job, const CavityProgram& program, std
   if (!program.layers.empty()) notes.push_back(ends_of(program));
 }
 
-std::string why_not_done(const TrochoidJob& job, const PlannedLayer& layer) {
+std::string why_not_done(const TrochoidJob& job, const PlannedLayer& layer, const CoverageEstimate& sides) {
   if (layer.cycles.status == CycleStatus::kDone) return {};
   std::string why;
   if (got_stuck(layer.cycles) && !layer.no_way_in)
     why = stuck_sentence(job, layer.cycles) + "; ";
   else if (layer.cycles.status == CycleStatus::kCancelled)
     why = "the search ended there; ";
-  return why + rest_sentence(job, layer);
+  return why + rest_sentence(job, layer) +
+         fmt::format("; the passes along the sides finish {:.1f} % of both, by the planner's samples",
+                     100.0 * sides.at_tolerance);
+}
+
+void note_limit_of_work(Result& result) {
+  result.notes.push_back(
+      "the search reached its limit of work; this is the best found. `--effort thorough` has no limit");
+  auto* cavity = std::get_if<TrochoidSummary>(&result.plan);
+  if (cavity == nullptr) return;
+  for (LayerSummary& layer : cavity->layers)
+    if (layer.status == "cancelled") layer.why += "; the search reached its limit of work";
 }
 
 std::string no_cycles_sentence(const TrochoidJob& job, const CoverageEstimate& sides, const WhyNoCycles& why) {

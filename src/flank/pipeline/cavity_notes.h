@@ -15,8 +15,12 @@ namespace flank::internal {
 /// Where cycles got stuck or entered a face, what they left, and at which ends the cavity is open. Of a job with a tolerance, as below.
 void note_what_is_open(const TrochoidJob& job, const CavityProgram& program, std::vector<std::string>& notes);
 
-/// Of a layer that is not done: what ended it, and how far it got.
-[[nodiscard]] std::string why_not_done(const TrochoidJob& job, const PlannedLayer& layer);
+/// Of a layer that is not done: what ended it, how far it got, and what the sides of all layers finish.
+[[nodiscard]] std::string why_not_done(const TrochoidJob& job, const PlannedLayer& layer,
+                                       const CoverageEstimate& sides);
+
+/// The search reached its limit of work: said in a note, and in the reason of a layer that ended there.
+void note_limit_of_work(Result& result);
 
 /// Of a plan without cycles: what its sides do, what is required, and why there are none.
 [[nodiscard]] std::string no_cycles_sentence(const TrochoidJob& job, const CoverageEstimate& sides,

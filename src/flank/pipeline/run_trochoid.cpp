@@ -192,7 +192,7 @@ TrochoidSummary summary_of(const TrochoidJob& job, const SideFit& sides, const C
   double links = 0.0;
   for (const PlannedLayer& layer : program.layers) {
     out.layers.push_back(summary_of(layer));
-    out.layers.back().why = why_not_done(job, layer);
+    out.layers.back().why = why_not_done(job, layer, sides.fit.after);
     links += layer.links_mm;
   }
   out.minutes = out.way_mm() / job.cycles.feed_mm_min + links / job.cycles.rapid_mm_min;
@@ -279,9 +279,7 @@ Result plan_trochoid(const TrochoidJob& request, KnownShank known, double most_l
   take(plan, job, spec, faces, scene, setup.part.box, result);
   watch.lap("cycles");
   result.complete = !progress.stop();
-  if (result.complete && searching.stop())
-    result.notes.push_back(
-        "the search reached its limit of work; this is the best found. `--effort thorough` has no limit");
+  if (result.complete && searching.stop()) note_limit_of_work(result);
 
   progress.step("verify", 0.9);
   judge.finish(plan, result);

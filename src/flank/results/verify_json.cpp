@@ -415,4 +415,18 @@ Acceptance acceptance_from_json(const std::string& text, const std::string& sour
   return read_from(text, source, acceptance_from);
 }
 
+void keep_planned(const std::string& summary, const std::string& source, Acceptance& acceptance) {
+  nlohmann::json json;
+  std::vector<Shortfall> planned;
+  try {
+    json = nlohmann::json::parse(summary);
+    planned = shortfalls_from(json, "reasons");
+  } catch (const nlohmann::json::exception& e) {
+    throw InputError(source + ": not a summary.json (" + e.what() + ")");
+  }
+  for (Shortfall& reason : planned)
+    if (reason.figure == figure_name(Figure::kCycles) || reason.figure == figure_name(Figure::kEngagement))
+      acceptance.reasons.push_back(std::move(reason));
+}
+
 }  // namespace flank::internal

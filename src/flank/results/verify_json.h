@@ -30,4 +30,8 @@ namespace flank::internal {
 /// Its reasons and cautions; one of "verdict" where `pass` is false without any. Throws likewise.
 [[nodiscard]] Acceptance acceptance_from_json(const std::string& text, const std::string& source);
 
+/// Adds what the planner of a cavity's cycles found against them, of a summary.json that `source` names in messages: a path alone does
+/// not tell what was not planned. Throws as above.
+void keep_planned(const std::string& summary, const std::string& source, Acceptance& acceptance);
+
 }  // namespace flank::internal

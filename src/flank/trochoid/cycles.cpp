@@ -297,8 +297,9 @@ bool CyclePlanner::ends_at_wall(double radii, LayerCycles& out) const {
   const Cycle& last = out.cycles.back();
   const double before = std::max(sides_.from.last() - last.from_x, sides_.to.last() - last.to_x);
   // Past the ends of both sides nothing of them is left.
-  const bool past = last.from_x >= sides_.from.length() && last.to_x >= sides_.to.length();
-  if (before > radii * search_.radius() && !(past && radii > kAgainstWall)) return false;
+  const double of_sides = std::max(sides_.from.length() - last.from_x, sides_.to.length() - last.to_x);
+  const bool past = of_sides <= 0.0;
+  if ((radii > kAgainstWall ? std::min(before, of_sides) : before) > radii * search_.radius()) return false;
   out.before_wall_mm = past ? 0.0 : std::max(before, 1e-9);
   return true;
 }

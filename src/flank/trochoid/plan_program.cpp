@@ -52,10 +52,13 @@ std::vector<LayerSides> order_layers(const std::vector<RuledMotion>& sides, cons
   // Who asks for an open entry has an open start.
   const bool both = depth.start > wall && depth.end > wall && options.entry.method != EntryMethod::kOpen;
   const auto before_wall = [&](double free_mm) { return free_mm < kNearWall * radius ? 0.0 : free_mm; };
+  const WallDepths allowed{kToleranceBudget.cavity.aim * options.cycles.tolerance_mm, allowed_at_run_outs(options)};
   for (LayerSides& layer : layers)
     for (SidePath* path : {&layer.from, &layer.to}) {
       if (both) path->stop_at(false, before_wall(depth.free_start));
-      if (both || (depth.end > wall && depth.start <= wall)) path->stop_at(true, before_wall(depth.free_end));
+      // Cycles leave before a wall what its place is off: it is found more closely.
+      if (both || (depth.end > wall && depth.start <= wall))
+        path->stop_at(true, way_to_wall(*path, before_wall(depth.free_end), radius, guard, allowed));
     }
   return layers;
 }

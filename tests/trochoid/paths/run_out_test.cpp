@@ -220,6 +220,21 @@ TEST_F(RunOutTest, GoesAsFarAsAWallThatIsFartherOn) {
   EXPECT_EQ(a.poses(1.0, a.length() + 20.0, 0.01).back().tip, a.at(a.last()).tip);
 }
 
+/// The way was looked at in steps of up to 0.4 radii, and where it was shorter than a radius it was none: material was left before
+/// the wall.
+TEST_F(RunOutTest, TheWayToAWallIsFoundClosely) {
+  for (const double x : {49.0, 52.5, 56.0}) {
+    const Face wall = testing::quad(Vec3(x, -50, -20), Vec3(x, 50, -20), Vec3(x, -50, 60), Vec3(x, 50, 60), "F3");
+    const ObstacleField field(only({make_target({wall}), true}), *blade_, 2.0, 0.0);
+    const HalfGuard guard({{blade_.get()}, {&field}}, kTool);
+    const SidePath path = leaning(kRadius, 0.0);
+    // Axes end at x = 45.
+    EXPECT_NEAR(way_to_wall(path, 0.0, kRadius * 3.0, guard, {0.01, 0.01}), x - kRadius - 45.0 + 0.01, 2e-3) << x;
+  }
+  const HalfGuard free({{blade_.get()}, {}}, kTool);
+  EXPECT_EQ(way_to_wall(leaning(kRadius, 0.0), 0.4, kRadius, free, {0.01, 0.01}), 0.4) << "no wall is there";
+}
+
 TEST_F(RunOutTest, ASweepEndsBeforeWhatItsRunOutEnters) {
   // A rim behind the blade, so near that nothing rises in time.
   const Face rim =

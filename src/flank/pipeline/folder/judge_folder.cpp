@@ -105,12 +105,15 @@ FolderStock replay_stock(const Job& job, const Setup& setup, const Tool& tool, c
   return {};
 }
 
+/// Of a cavity: what its stock shows, and what was not planned of it.
 template <class Job>
-void accept_program(const Job& job, Verification& outcome) {
-  if constexpr (std::is_same_v<Job, TrochoidJob>)
+void accept_program(const Job& job, const std::string& summary, Verification& outcome) {
+  if constexpr (std::is_same_v<Job, TrochoidJob>) {
+    if (std::filesystem::exists(summary)) keep_planned(read_file(summary), summary, outcome.acceptance);
     if (outcome.report.stock)
       accept_stock(*outcome.report.stock, job.cycles.most_engagement_deg, outcome.report.tolerance_mm,
                    outcome.acceptance);
+  }
 }
 
 /// Of a wheel's folder: that its path is that of its operations, and roughing.
@@ -156,7 +159,7 @@ Verification judge_path(const VerifyJob& request, const Job& job, const std::str
     bending->add_notes(outcome.report.bending, outcome.notes);
   }
   outcome.acceptance = accept(tool, outcome.report, job.judge);
-  accept_program(job, outcome);
+  accept_program(job, file("summary.json"), outcome);
   const double chord_mm = kToleranceBudget.chord * setup.tolerance_mm;
   accept_bends(job, least_bend_radii(path, tool.radial.axis_length(), chord_mm), outcome.acceptance);
   judge_steps(request.folder, plan, setup, path, outcome);

@@ -125,21 +125,36 @@ std::vector<Clamping> clampings_of(const PostJob& request, const ProgramPlan& pl
   return {{}};
 }
 
+/// The poses of the controlled point along a path.
+void add_poses(const Path& path, double below, SetupSearch& search) {
+  for (const Strip& strip : path.strips)
+    for (const Pose& p : strip.poses) {
+      search.poses.push_back({p.at(-below), p.axis});
+      search.cutting.push_back(strip.kind != kLinkKind);
+    }
+}
+
 /// All poses of all copies that the machine must reach.
 SetupSearch all_poses(const Machine& machine, const ProgramPlan& plan) {
   SetupSearch search;
-  for (const PlannedOperation& one : plan.operations) {
-    const double below = tip_offset(machine, one.facts);
-    for (int copy = 1; copy <= one.copies; ++copy) {
-      const Path path = turned(one.links.linked.path, copy_turn(plan.axis, copy, one.copies));
-      for (const Strip& strip : path.strips)
-        for (const Pose& p : strip.poses) {
-          search.poses.push_back({p.at(-below), p.axis});
-          search.cutting.push_back(strip.kind != kLinkKind);
-        }
-    }
-  }
+  for (const PlannedOperation& one : plan.operations)
+    for (int copy = 1; copy <= one.copies; ++copy)
+      add_poses(turned(one.links.linked.path, copy_turn(plan.axis, copy, one.copies)), tip_offset(machine, one.facts),
+                search);
   return search;
+}
+
+/// The same, each by itself, with the ways from upright and back, which depend on the set-up.
+std::vector<std::vector<Pose>> whole_ways(const Machine& machine, const ProgramPlan& plan, const WorkSetup& place) {
+  std::vector<std::vector<Pose>> ways;
+  for (const PlannedOperation& one : plan.operations)
+    for (int copy = 1; copy <= one.copies; ++copy) {
+      SetupSearch search;
+      add_poses(turned_path(with_length(machine, one), one, place, {plan.axis, copy, one.copies}),
+                tip_offset(machine, one.facts), search);
+      ways.push_back(std::move(search.poses));
+    }
+  return ways;
 }
 
 WorkSetup find_setup(const PostJob& request, const Machine& machine, const ProgramPlan& plan, PostOutcome& outcome) {
@@ -157,6 +172,7 @@ WorkSetup find_setup(const PostJob& request, const Machine& machine, const Progr
     const Pose p = above(largest->way, up);
     return Pose{p.at(-below), p.axis};
   };
+  search.whole = [&](const WorkSetup& place) { return whole_ways(machine, plan, place); };
   const MachineScene scene = machine_scene(longest, largest->tool, below);
   const Kinematics kinematics(longest, longest.tool_length);
   FoundSetup found;

@@ -121,21 +121,6 @@ void fill(const Machine& machine, const Post& result, PostOutcome& outcome) {
   }
 }
 
-/// Links and strips where the copy is, begun and ended upright.
-Path turned_path(const Machine& machine, const PlannedOperation& plan, const WorkSetup& place, const CopyOf& copy) {
-  const Eigen::Isometry3d turn = copy_turn(copy.axis, copy.copy, copy.copies);
-  LinkOptions way = plan.way;
-  if (copy.copy > 1) {
-    // The sphere on which links go round the part turns with them.
-    const Vec3 by = turn * way.keep_out.center() - way.keep_out.center();
-    way.keep_out.low += by;
-    way.keep_out.high += by;
-  }
-  const Vec3 up = place.rotation().transpose() * Kinematics(machine, machine.tool_length).direction({0.0, 0.0});
-  const Path& linked = plan.links.linked.path;
-  return upright(copy.copy > 1 ? turned(linked, turn) : linked, way, up);
-}
-
 PostOptions options_of(const PlannedOperation& plan, const WorkSetup& place) {
   PostOptions options;
   options.setup = place;
@@ -161,6 +146,20 @@ PostOperation told_of(const PlannedOperation& plan, const CopyOf& copy, const Po
 }
 
 }  // namespace
+
+Path turned_path(const Machine& machine, const PlannedOperation& plan, const WorkSetup& place, const CopyOf& copy) {
+  const Eigen::Isometry3d turn = copy_turn(copy.axis, copy.copy, copy.copies);
+  LinkOptions way = plan.way;
+  if (copy.copy > 1) {
+    // The sphere on which links go round the part turns with them.
+    const Vec3 by = turn * way.keep_out.center() - way.keep_out.center();
+    way.keep_out.low += by;
+    way.keep_out.high += by;
+  }
+  const Vec3 up = place.rotation().transpose() * Kinematics(machine, machine.tool_length).direction({0.0, 0.0});
+  const Path& linked = plan.links.linked.path;
+  return upright(copy.copy > 1 ? turned(linked, turn) : linked, way, up);
+}
 
 Machine with_length(Machine machine, const PlannedOperation& plan) {
   if (plan.request.tool_length_mm) machine.tool_length = *plan.request.tool_length_mm;

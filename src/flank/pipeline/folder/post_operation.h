@@ -14,6 +14,10 @@ struct CopyOf {
   int copy = 1, copies = 1;
 };
 
+/// Links and strips where the copy is, begun and ended upright in a set-up.
+[[nodiscard]] Path turned_path(const Machine& machine, const PlannedOperation& plan, const WorkSetup& place,
+                               const CopyOf& copy);
+
 /// The program of one copy, and what is to be known of it. `machine` has the tool's length. What holds for every copy (the path's
 /// own verdict, its links) is judged for the first. Throws InputError where the machine cannot run it.
 [[nodiscard]] PostOutcome post_operation(const Machine& machine, const PlannedOperation& plan, const WorkSetup& place,

@@ -287,4 +287,38 @@ double free_run_out(const SidePath& path, bool end, double most_mm, const HalfGu
   return most_mm;
 }
 
+double way_to_wall(const SidePath& path, double free_mm, double radius_mm, const HalfGuard& guard,
+                   const WallDepths& allowed) {
+  // An edge that the tool rounds on its way is not stepped over.
+  constexpr int kSteps = 50, kBisections = 12, kPlaces = 13;
+  const auto entered = [&](double by) {
+    const AxisPlace place = path.at(path.length() + by);
+    GuardDepth depth;
+    guard.look({place.tip, place.u}, kPlaces, depth);
+    return depth;
+  };
+  const GuardDepth end = entered(0.0);
+  const double others = std::max(allowed.wall_mm, kMore * end.others),
+               sides = std::max(allowed.side_mm, kMore * end.sides);
+  const auto enters = [&](double by) {
+    const GuardDepth depth = entered(by);
+    return depth.others > others || depth.sides > sides;
+  };
+  double low = free_mm;
+  for (int k = 1; k <= kSteps; ++k) {
+    double high = free_mm + radius_mm * k / kSteps;
+    if (!enters(high)) {
+      low = high;
+      continue;
+    }
+    for (int n = 0; n < kBisections; ++n) {
+      const double middle = 0.5 * (low + high);
+      (enters(middle) ? high : low) = middle;
+    }
+    return low;
+  }
+  // No wall is there: what was known stays.
+  return free_mm;
+}
+
 }  // namespace flank::internal

@@ -31,4 +31,14 @@ RunOutDepth join_run_outs(SidePath& a, SidePath& b, double radius_mm, const Half
 [[nodiscard]] double free_run_out(const SidePath& path, bool end, double most_mm, const HalfGuard& guard,
                                   double allowed_mm);
 
+/// How deep a path may be at a wall: in the wall, across the way, and in the side that it goes on along, mm.
+struct WallDepths {
+  double wall_mm = 0.0, side_mm = 0.0;
+};
+
+/// How far beyond its end a path may go before the wall there, mm: from a way on that is known to be free up to where it enters a face
+/// by more than is allowed, or than its end does, within the rounding of a search by halves. No more than a radius farther.
+[[nodiscard]] double way_to_wall(const SidePath& path, double free_mm, double radius_mm, const HalfGuard& guard,
+                                 const WallDepths& allowed);
+
 }  // namespace flank::internal
