@@ -310,6 +310,9 @@ class FaceVerdict:
     def area_mm2(self) -> float:
         """Area, mm^2."""
     @property
+    def copies(self) -> int:
+        """Equal faces that it stands for in the coverage of all, itself among them."""
+    @property
     def overcut_mm(self) -> float:
         """Deepest gouge found, mm."""
     @property
