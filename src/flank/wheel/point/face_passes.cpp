@@ -93,8 +93,9 @@ std::optional<Pose> pose_at(const Work& work, std::size_t line, double place, co
   for (const Vec3& axis : work.field.around(row, column))
     if (const Pose pose{tip, axis}; work.room.is_free(pose, joint.deeper_mm)) return pose;
   // A place smaller than the net's cells, as beside the foot of a post.
+  if (beside != nullptr)
+    if (const Pose pose{tip, beside->axis}; work.room.is_free(pose, joint.deeper_mm)) return pose;
   const Vec3& wish = beside != nullptr ? beside->axis : smooth.axis;
-  if (const Pose pose{tip, wish}; work.room.is_free(pose, joint.deeper_mm)) return pose;
   const auto own = AxisField::nearest_free(work.room, {tip, here->normal, 0.0}, wish, joint.deeper_mm);
   return own ? std::optional(Pose{tip, *own}) : std::nullopt;
 }
