@@ -126,6 +126,7 @@ TEST_F(WheelPlanFile, ABladesFacesCountForItsCopies) {
   text.replace(text.find(R"("folder": "ops/20-side")"), 0, R"("faces": ["F2"], )");
   flank::internal::Setup setup;
   setup.part.faces = {test::plane_face("F1", 4.0, 2.0), test::plane_face("F2", 4.0, 2.0)};
+  setup.targets = {0, 1};
   write_plan(text);
   stand_whole(read_wheel_plan(root_.string()).value(), setup);
   EXPECT_EQ(setup.copies, (std::map<int, int>{{1, 3}})) << "the hub is one face";

@@ -120,7 +120,9 @@ void stand_whole(const WheelPlan& plan, Setup& setup) {
   const Part& part = setup.part;
   for (const WheelStep& step : plan.steps)
     if (plan.whole && (step.kind == "side" || step.kind == "edge" || step.kind == "fillet"))
-      for (const int face : faces_named(part, step.faces)) setup.copies[face] = step.copies;
+      for (const int target : setup.targets)
+        if (std::count(step.faces.begin(), step.faces.end(), part.face_id(target)) > 0)
+          setup.copies[target] = step.copies;
   for (const LackingBlade& blade : plan.lacking) {
     TriangleMesh body;
     for (const int face : faces_named(part, blade.faces))
