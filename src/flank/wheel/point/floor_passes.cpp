@@ -6,18 +6,13 @@
 #include <utility>
 
 #include "flank/base/parallel.h"
-#include "flank/wheel/point/axis_field.h"
-#include "flank/wheel/point/channel_rows.h"
+#include "flank/wheel/point/channel_poses.h"
 #include "flank/wheel/point/wall_passes.h"
 
 namespace flank::internal {
 namespace {
 
 constexpr int kMostPasses = 1024;
-constexpr int kFewestColumns = 9;     ///< of the net of directions, across
-constexpr double kColumnMm = 4.0;     ///< between them, at most
-constexpr double kNetMm = 2.5;        ///< and along
-constexpr int kAxes = 5;              ///< that are tried at a place
 constexpr double kLeastBeyond = 0.1;  ///< of the way from pass to pass: less room beside the outermost one is none
 
 /// Between passes on a floor that bends like this across, mm.
@@ -27,32 +22,20 @@ double spacing(double tip_mm, double bend, const PointOptions& options) {
   return std::sqrt(8.0 * options.scallop_share * options.tolerance_mm / open);
 }
 
-/// The net along the channel: its first and its last row are those of the channel, the others evenly between them.
-int net_count(const std::vector<ChannelRow>& rows) {
-  return static_cast<int>(std::ceil((rows.back().along - rows.front().along) / kNetMm)) + 1;
-}
-
-/// Rows of the channel from one of the net to the next.
-double net_stride(const std::vector<ChannelRow>& rows) {
-  return (static_cast<double>(rows.size()) - 1.0) / std::max(1, net_count(rows) - 1);
-}
-
 struct Plan {
-  const ChannelRows& channel;
-  const TipRoom& room;
-  const PointOptions& options;
+  const ChannelPoses& poses;
   std::vector<double> parts;  ///< of each row, that the scallop asks for at least; 0: no pass is there
 };
 
-Plan plan_of(const ChannelRows& channel, const TipRoom& room, const PointOptions& options) {
-  Plan plan{channel, room, options, {}};
-  for (const ChannelRow& row : channel.rows()) {
-    const std::optional<TipRoom::Rest> middle = row.open ? channel.rest(row, 0.5) : std::nullopt;
+Plan plan_of(const ChannelPoses& poses) {
+  Plan plan{poses, {}};
+  for (const ChannelRow& row : poses.rows()) {
+    const std::optional<TipRoom::Rest> middle = row.open ? poses.channel().rest(row, 0.5) : std::nullopt;
     plan.parts.push_back(0.0);
     if (!middle) continue;
     const double wide = (row.high - row.low) * row.width * row.square;
-    plan.parts.back() =
-        std::clamp<double>(wide / spacing(room.tip_mm(), middle->k1, options), 1.0, static_cast<double>(kMostPasses));
+    plan.parts.back() = std::clamp<double>(wide / spacing(poses.room().tip_mm(), middle->k1, poses.options()), 1.0,
+                                           static_cast<double>(kMostPasses));
   }
   return plan;
 }
@@ -84,77 +67,42 @@ std::vector<PassNumber> passes_across(const std::vector<double>& parts) {
   return out;
 }
 
-int columns_of(const std::vector<ChannelRow>& rows) {
-  double widest = 0.0;
-  for (const ChannelRow& row : rows)
-    if (row.open) widest = std::max(widest, (row.high - row.low) * row.width);
-  return std::max(kFewestColumns, static_cast<int>(std::ceil(widest / kColumnMm)) + 1);
-}
-
-AxisField field_of(const ChannelRows& channel, const TipRoom& room, const AxisField* before = nullptr) {
-  const std::vector<ChannelRow>& rows = channel.rows();
-  const double stride = net_stride(rows);
-  const int count = net_count(rows), columns = before != nullptr ? before->columns() : columns_of(rows);
-  std::vector<std::optional<TipRoom::Rest>> places(static_cast<std::size_t>(count * columns));
-  parallel_for(places.size(), [&](std::size_t k) {
-    const std::size_t across = k % static_cast<std::size_t>(columns), along = k / static_cast<std::size_t>(columns);
-    const ChannelRow& row = rows[static_cast<std::size_t>(std::lround(static_cast<double>(along) * stride))];
-    if (row.open) places[k] = channel.rest(row, static_cast<double>(across) / (columns - 1));
-  });
-  return {room, places, count, columns, before};
-}
-
-std::optional<Pose> pose_at(const Plan& plan, const AxisField& field, std::size_t row, double share) {
-  const std::vector<ChannelRow>& rows = plan.channel.rows();
-  if (!rows[row].open) return {};
-  const std::optional<TipRoom::Rest> rest = plan.channel.rest(rows[row], share);
-  if (!rest || (plan.options.is_air && plan.options.is_air(rest->center))) return {};
-  // Beside a blade the axis of a place nearer to the middle may have room where its own has none.
-  for (int k = 0; k < kAxes; ++k) {
-    const double column = std::lerp(std::clamp(share, 0.0, 1.0), 0.5, k / (kAxes - 1.0)) * (field.columns() - 1);
-    const Pose pose{rest->center, field.at(static_cast<double>(row) / net_stride(rows), column)};
-    if (plan.room.is_free(pose)) return pose;
-  }
-  return {};
-}
-
 /// A pass: what is not needed and what has no room is absent.
-PoseRow floor_row(const Plan& plan, const AxisField& field, const PassNumber& pass) {
+PoseRow floor_row(const Plan& plan, const PassNumber& pass) {
   const std::vector<double>& parts = plan.parts;
   const auto is_needed = [&](std::size_t i) { return parts[i] > 0.0 && pass.is_needed(parts[i]); };
   PoseRow out(parts.size());
   for (std::size_t i = 0; i < out.size(); ++i)
     // A row beyond the last one that needs this pass is taken along: there it meets its neighbour.
     if (parts[i] > 0.0 && (is_needed(i) || (i > 0 && is_needed(i - 1)) || (i + 1 < out.size() && is_needed(i + 1))))
-      out[i] = pose_at(plan, field, i, pass.share(parts[i]));
+      out[i] = plan.poses.at(i, pass.share(parts[i]));
   return out;
 }
 
 /// Before and behind a blade: the j-th pass, from 1 on, beyond the outermost one of the channel, as far as the tip is free there. The last
 /// one of each row is as far out as that.
-PoseRow row_beyond(const Plan& plan, const AxisField& field, std::size_t j, bool at_low) {
+PoseRow row_beyond(const Plan& plan, std::size_t j, bool at_low) {
   PoseRow out(plan.parts.size());
   for (std::size_t i = 0; i < out.size(); ++i) {
-    const ChannelRow& row = plan.channel.rows()[i];
+    const ChannelRow& row = plan.poses.rows()[i];
     if (!row.open || !(plan.parts[i] > 0.0)) continue;
     const double room = (at_low ? row.low - row.free_low : row.free_high - row.high) / (row.high - row.low),
                  before = (static_cast<double>(j) - 1.0) / plan.parts[i];
     if (room - before < kLeastBeyond / plan.parts[i]) continue;
     const double beyond = std::min(room, before + 1.0 / plan.parts[i]);
-    out[i] = pose_at(plan, field, i, at_low ? -beyond : 1.0 + beyond);
+    out[i] = plan.poses.at(i, at_low ? -beyond : 1.0 + beyond);
   }
   return out;
 }
 
-std::vector<PoseRow> floor_rows(const ChannelRows& rows, const TipRoom& room, const PointOptions& options,
-                                const AxisField& field) {
-  const Plan plan = plan_of(rows, room, options);
+std::vector<PoseRow> floor_rows(const ChannelPoses& poses) {
+  const Plan plan = plan_of(poses);
   const std::vector<PassNumber> passes = passes_across(plan.parts);
   std::vector<PoseRow> found(passes.size());
-  parallel_for(found.size(), [&](std::size_t j) { found[j] = floor_row(plan, field, passes[j]); });
+  parallel_for(found.size(), [&](std::size_t j) { found[j] = floor_row(plan, passes[j]); });
   for (const bool at_low : {true, false})
     for (int j = 1; j < kMostPasses; ++j) {
-      PoseRow beyond = row_beyond(plan, field, static_cast<std::size_t>(j), at_low);
+      PoseRow beyond = row_beyond(plan, static_cast<std::size_t>(j), at_low);
       if (std::none_of(beyond.begin(), beyond.end(), [](const auto& pose) { return pose.has_value(); })) break;
       found.push_back(std::move(beyond));
     }
@@ -169,14 +117,12 @@ std::vector<Strip> point_passes(const FloorChannel& channel, const RadialFunctio
   const ChannelLines lines(channel);
   const ChannelRows rows(channel, lines, room, options);
   if (rows.rows().size() < 3) return {};
-  const AxisField field = field_of(rows, room);
+  const ChannelPoses poses(rows, room, options);
   std::vector<Strip> out;
-  add_strips(floor_rows(rows, room, options, field), room, radial, options, "floor", floor, out);
-  const double stride = net_stride(rows.rows());
+  add_strips(floor_rows(poses), room, radial, options, "floor", floor, out);
   for (const bool at_first : {true, false}) {
     const auto axis = [&](std::size_t row, double inwards) {
-      const double last = field.columns() - 1.0, column = last * inwards;
-      return field.at(static_cast<double>(row) / stride, at_first ? column : last - column);
+      return poses.axis(row, at_first ? inwards : 1.0 - inwards);
     };
     add_strips(wall_rows({channel, rows, room, options, axis, at_first}), room, radial, options, "wall",
                at_first ? first : second, out);
@@ -198,9 +144,9 @@ std::vector<std::vector<Strip>> layer_passes(const FloorChannel& channel, const 
     const ChannelRows rows(channel, lines, room, here);
     out.emplace_back();
     if (rows.rows().size() < 3) continue;
-    AxisField field = field_of(rows, room, below ? &*below : nullptr);
-    add_strips(floor_rows(rows, room, here, field), room, radial, here, "rough", floor, out.back());
-    below = std::move(field);
+    const ChannelPoses poses(rows, room, here, below ? &*below : nullptr);
+    add_strips(floor_rows(poses), room, radial, here, "rough", floor, out.back());
+    below = poses.field();
   }
   return out;
 }
