@@ -774,7 +774,7 @@ def wheel(
     blank, allowance_mm
         A closed body in the part's place, as a file. None: turned about the part, with this allowance.
     most_engagement_deg
-        The largest engagement that the simulation of the roughing may show; 180 allows slots.
+        The largest engagement that the simulation of roughing may show: below 180 by trochoidal cycles, else in slots.
     most_tilt_deg
         The largest angle between the tool and the wheel's axis on passes of the tip: as far as the machine tilts the part.
     hub, blades, splitters, count

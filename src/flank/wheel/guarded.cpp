@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -85,10 +86,10 @@ Path lifted(WheelWork& work, const Path& path) {
 }
 
 Path guarded(WheelWork& work, const Path& path) {
-  return guarded(work, path, *work.tool, kMostShare * work.job.tolerance_mm);
+  return guarded(work, path, *work.tool, kMostShare * work.job.tolerance_mm, Turns::kHeld);
 }
 
-Path guarded(WheelWork& work, const Path& path, const Tool& tool, double most_mm) {
+Path guarded(WheelWork& work, const Path& path, const Tool& tool, double most_mm, Turns turns) {
   const RadialFunction& radial = tool.radial;
   const MotionGuard guard = guard_of(work, path, radial, most_mm);
   const HoldGuard hold(work, tool);
@@ -107,6 +108,7 @@ Path guarded(WheelWork& work, const Path& path, const Tool& tool, double most_mm
   for (const Strip& strip : path.strips) {
     const auto [known, is_new] = options_of.try_emplace(strip.face);
     if (is_new) known->second = work.point_options(face_list_items(strip.face));
+    if (turns == Turns::kAny) known->second.most_turn_rad = std::numbers::pi;
     const PointOptions& options = known->second;
     Strip run = strip;
     run.poses.assign(1, strip.poses.front());

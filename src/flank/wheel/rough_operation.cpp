@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "flank/base/sha256.h"
@@ -16,9 +17,10 @@
 #include "flank/wheel/judge_whole.h"
 #include "flank/wheel/perform.h"
 #include "flank/wheel/point/axis_rod.h"
-#include "flank/wheel/point/floor_map.h"
 #include "flank/wheel/point/floor_passes.h"
 #include "flank/wheel/point/pass_strips.h"
+#include "flank/wheel/rough/channel_section.h"
+#include "flank/wheel/rough/clear_channel.h"
 
 namespace flank::internal {
 namespace {
@@ -31,57 +33,8 @@ constexpr double kTaperDeg = 5.0;
 constexpr double kLayerShare = 1.0;  ///< of the tip's radius
 constexpr double kApartShare = 1.0;
 constexpr double kSmallestGain = 1.2;  ///< a tool that is no larger is not worth a change
-constexpr double kMapStepMm = 0.5;
-
-double distance_to(const std::vector<Vec2>& line, const Vec2& p) {
-  double least = 1e300;
-  for (std::size_t k = 0; k + 1 < line.size(); ++k) {
-    const Vec2 side = line[k + 1] - line[k];
-    const double t =
-        side.squaredNorm() > 0.0 ? std::clamp((p - line[k]).dot(side) / side.squaredNorm(), 0.0, 1.0) : 0.0;
-    least = std::min(least, (p - line[k] - t * side).norm());
-  }
-  return least;
-}
-
-/// Half of the wheel's section between hub and tips, along the axis and away from it.
-class Section {
- public:
-  Section(const FloorChannel& channel, const std::vector<Vec2>& outline) : axis_(channel.axis), outline_(outline) {
-    const FloorMap map(channel.floor, channel.axis);
-    for (double way = 0.0; way <= map.length(); way += kMapStepMm) hub_.push_back(flat(map.place(way, 0.0)));
-    polygon_ = hub_;
-    if (hub_.empty() || outline_.empty()) return;
-    const bool same = (hub_.back() - outline_.front()).norm() < (hub_.back() - outline_.back()).norm();
-    polygon_.insert(polygon_.end(), outline_.begin(), outline_.end());
-    if (!same) std::reverse(polygon_.end() - static_cast<std::ptrdiff_t>(outline_.size()), polygon_.end());
-  }
-  /// Whether a ball is above the tips, or before or behind the blank.
-  [[nodiscard]] bool is_air(const Vec3& center, double radius) const {
-    const Vec2 p = flat(center);
-    bool inside = false;
-    for (std::size_t k = 0; k < polygon_.size(); ++k) {
-      const Vec2 &a = polygon_[k], &b = polygon_[(k + 1) % polygon_.size()];
-      if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
-        inside = !inside;
-    }
-    if (inside) return false;
-    std::vector<Vec2> closed = polygon_;
-    closed.push_back(polygon_.front());
-    return distance_to(closed, p) > radius;
-  }
-  /// Of the tips over the hub, mm, at most.
-  [[nodiscard]] double height() const {
-    double most = 0.0;
-    for (const Vec2& p : outline_) most = std::max(most, distance_to(hub_, p));
-    return most;
-  }
-
- private:
-  [[nodiscard]] Vec2 flat(const Vec3& p) const { return {axis_.along(p), axis_.radius(p)}; }
-  WheelAxis axis_;
-  std::vector<Vec2> outline_, hub_, polygon_;
-};
+constexpr double kGuardShare = 0.3;    ///< of what is left, by which it is proved to keep off
+constexpr double kSlotDeg = 180.0;     ///< engagement in a slot
 
 /// T2, where a tool larger than T1 fits; else T1.
 std::string choose_tool(WheelWork& work) {
@@ -104,30 +57,47 @@ const std::vector<Vec2>& top_of(const WheelWork& work) {
   return work.job.blank ? work.blank.outline : work.roles.outline;
 }
 
+/// The passes of a layer as far apart as the tip's radius, the first one a slot; the highest layer first.
+std::vector<Strip> slot_layers(const WheelWork& work, const FloorChannel& channel, const Tool& tool,
+                               PointOptions options, double keep) {
+  const double tip = tool.radial.at(0.0).r;
+  const ChannelSection section(channel, top_of(work));
+  options.apart_mm = kApartShare * tip;
+  options.is_air = [&section, tip](const Vec3& center) { return section.is_air(center, tip); };
+  const int layers = 1 + static_cast<int>(std::ceil(section.height() / (kLayerShare * tip)));
+  std::vector<double> heights;
+  for (int layer = 0; layer < layers; ++layer) heights.push_back(keep + layer * kLayerShare * tip);
+  std::vector<std::vector<Strip>> found =
+      layer_passes(channel, tool.radial, options, heights, face_list(work.roles.hub));
+  std::vector<Strip> out;
+  for (int layer = 1; layer <= layers; ++layer)
+    for (Strip& strip : found[static_cast<std::size_t>(layers - layer)]) {
+      strip.layer = layer;
+      out.push_back(std::move(strip));
+    }
+  return out;
+}
+
+std::vector<Strip> cleared(WheelWork& work, const FloorChannel& channel, const Tool& tool) {
+  const double keep = kAllowanceMm + (work.equal() ? 0.0 : work.difference_mm);
+  PointOptions options = work.point_options(work.roles.hub);
+  options.enter_share = -keep / work.job.tolerance_mm;
+  options.shank_mm = shank_radius(tool);
+  if (work.job.most_engagement_deg >= kSlotDeg) return slot_layers(work, channel, tool, options, keep);
+  return clear_channel(channel, tool.radial, options,
+                       {.keep_mm = keep,
+                        .most_engagement_rad = work.job.most_engagement_deg * std::numbers::pi / 180.0,
+                        .face = face_list(work.roles.hub),
+                        .outline = work.blank.outline});
+}
+
 Path rough_path(WheelWork& work, const Tool& tool) {
-  const RadialFunction& radial = tool.radial;
-  const double tip = radial.at(0.0).r, keep = kAllowanceMm + (work.equal() ? 0.0 : work.difference_mm);
   Path out;
-  for (const SectorChannel& one : work.sector.channels) {
-    const FloorChannel channel = floor_channel(work, one);
-    const Section section(channel, top_of(work));
-    PointOptions options = work.point_options(work.roles.hub);
-    options.enter_share = -keep / work.job.tolerance_mm;
-    options.apart_mm = kApartShare * tip;
-    options.shank_mm = shank_radius(tool);
-    options.is_air = [&section, tip](const Vec3& center) { return section.is_air(center, tip); };
-    const int layers = 1 + static_cast<int>(std::ceil(section.height() / (kLayerShare * tip)));
-    std::vector<double> heights;
-    for (int layer = 0; layer < layers; ++layer) heights.push_back(keep + layer * kLayerShare * tip);
-    std::vector<std::vector<Strip>> found = layer_passes(channel, radial, options, heights, face_list(work.roles.hub));
-    // The highest is machined first.
-    for (int layer = 1; layer <= layers; ++layer)
-      for (Strip& strip : found[static_cast<std::size_t>(layers - layer)]) {
-        strip.layer = layer;
-        out.strips.push_back(thinned(strip, radial.axis_length(), kChordShare * kAllowanceMm));
-      }
-  }
-  return guarded(work, out, tool, -0.5 * kAllowanceMm - (work.equal() ? 0.0 : work.difference_mm));
+  for (const SectorChannel& one : work.sector.channels)
+    for (const Strip& strip : cleared(work, floor_channel(work, one), tool))
+      out.strips.push_back(thinned(strip, tool.radial.axis_length(), kChordShare * kAllowanceMm));
+  const Turns turns = work.job.most_engagement_deg >= kSlotDeg ? Turns::kHeld : Turns::kAny;
+  return guarded(work, out, tool, -kGuardShare * kAllowanceMm - (work.equal() ? 0.0 : work.difference_mm), turns);
 }
 
 }  // namespace
@@ -142,7 +112,8 @@ WheelOperation rough_operation(WheelWork& work) {
   operation.tool = choose_tool(work);
   operation.copies = work.sector.copies;
   const Tool tool = operation.tool == "T2" ? *work.rough_tool : *work.tool;
-  std::string decides = tool_to_json(tool) + fmt::format("{} {}", work.job.tolerance_mm, work.difference_mm);
+  std::string decides = tool_to_json(tool) + fmt::format("{} {} {}", work.job.tolerance_mm, work.difference_mm,
+                                                         work.job.most_engagement_deg);
   if (work.job.blank) decides += sha256(read_file(*work.job.blank));
   operation = perform(work, operation, decides, [&] {
     Path path = rough_path(work, tool);

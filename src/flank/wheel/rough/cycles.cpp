@@ -1,0 +1,143 @@
+#include "flank/wheel/rough/cycles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+namespace flank::internal {
+namespace {
+
+constexpr double kDeepestShare = 1.5;            ///< of the tip's radius: so far a front half bows ahead at most
+constexpr double kBackShare = 0.4;               ///< of that, by which the back half bows behind
+constexpr double kApartShare = 0.3;              ///< of the tip's radius, between poses
+constexpr int kFewest = 8;                       ///< poses of a half
+constexpr double kLonger = 1.3, kShorter = 0.7;  ///< than the last one a step is tried
+constexpr double kPlannedShare = 0.85;           ///< of the engagement that is allowed, by which steps are chosen
+constexpr double kNarrow = 0.05, kWiden = 0.02, kNarrowest = 0.3;  ///< shares of the channel's width
+
+/// Closed: a front half that cuts, then a back half.
+struct Loop {
+  std::vector<Pose> poses;
+  std::vector<double> shares;  ///< of each pose, across the channel
+};
+
+class Clearing {
+ public:
+  Clearing(const ChannelLayer& layer, const Cutter& cutter, const CycleLimits& limits, bool forward, StockGrid& stock)
+      : layer_(layer),
+        cutter_(cutter),
+        limits_(limits),
+        stock_(stock),
+        forward_(forward),
+        from_first_(layer.climbs_from_first() == forward) {}
+
+  /// Whether all loops went from side to side.
+  bool run(Strip strip, std::vector<Strip>& out) {
+    const double most = limits_.most_step_share * cutter_.tip();
+    double step = most;
+    bool all = true;
+    for (double place = 0.0; place < layer_.length();) {
+      step = std::min(most, kLonger * step);
+      low_ = std::max(0.0, low_ - kWiden), high_ = std::min(1.0, high_ + kWiden);
+      const std::optional<Loop> loop = fitting(place, strip, step);
+      all = all && loop && low_ == 0.0 && high_ == 1.0;
+      place += loop ? step : most;
+      if (loop && cuts(*loop))
+        add(loop->poses, strip);
+      else
+        end(strip, out);
+    }
+    end(strip, out);
+    return all;
+  }
+
+ private:
+  static void end(Strip& strip, std::vector<Strip>& out) {
+    if (!strip.poses.empty()) out.push_back(strip);
+    strip.poses.clear();
+  }
+  [[nodiscard]] bool cuts(const Loop& loop) const {
+    return std::any_of(loop.poses.begin(), loop.poses.end(), [&](const Pose& p) { return stock_.meets(cutter_, p); });
+  }
+  void add(const std::vector<Pose>& loop, Strip& strip) {
+    stock_.cut(cutter_, loop.front(), loop.front());
+    for (std::size_t k = 1; k < loop.size(); ++k) stock_.cut(cutter_, loop[k - 1], loop[k]);
+    strip.poses.insert(strip.poses.end(), loop.begin() + (strip.poses.empty() ? 0 : 1), loop.end());
+  }
+  /// The next loop, with as long a step as its engagement allows; where none is short enough it is not as wide, and those behind it widen again by
+  /// and by. None where a narrow one engages too much, too.
+  [[nodiscard]] std::optional<Loop> fitting(double place, const Strip& strip, double& step) {
+    const double least = limits_.least_step_share * cutter_.tip();
+    while (high_ - low_ > kNarrowest) {
+      Loop loop = loop_at(place + step);
+      // From loop to loop the tool goes on.
+      if (!strip.poses.empty()) {
+        loop.poses.insert(loop.poses.begin(), strip.poses.back());
+        loop.shares.insert(loop.shares.begin(), loop.shares.front());
+      }
+      const auto [in, at] = engagement(loop);
+      if (in <= (step > least ? kPlannedShare : 1.0) * limits_.most_engagement_rad) return loop;
+      if (step > least)
+        step = std::max(least, kShorter * step);
+      else if (at < 0.5 * (low_ + high_))
+        low_ += kNarrow;
+      else
+        high_ -= kNarrow;
+    }
+    low_ = high_ = 0.5;
+    return {};
+  }
+  /// A way that counts from where it begins.
+  [[nodiscard]] double on(double place) const { return forward_ ? place : layer_.length() - place; }
+  /// Its front half is ahead by `place` from where the stretch begins, at most.
+  [[nodiscard]] Loop loop_at(double place) const {
+    const double r = cutter_.tip(), width = (high_ - low_) * layer_.width(on(place)),
+                 deep = std::min(0.5 * width, kDeepestShare * r), back = kBackShare * deep;
+    const int count = std::max(kFewest, static_cast<int>(std::ceil((width + deep) / (kApartShare * r))));
+    Loop out;
+    for (const bool front : {true, false})
+      for (int k = front ? 0 : 1; k <= count - (front ? 0 : 1); ++k) {
+        const double angle = std::numbers::pi * k / count,
+                     ahead = place - deep + (front ? deep : -back) * std::sin(angle);
+        const double over = 0.5 * (1.0 - std::cos(angle));
+        out.shares.push_back(std::lerp(low_, high_, front == from_first_ ? over : 1.0 - over));
+        out.poses.push_back(layer_.at(on(ahead), out.shares.back()));
+      }
+    return out;
+  }
+  /// Radians, the most of it, and at which share across.
+  [[nodiscard]] std::pair<double, double> engagement(const Loop& loop) const {
+    std::pair<double, double> most{0.0, 0.5};
+    for (std::size_t k = 1; k < loop.poses.size(); ++k) {
+      const double here = stock_.engagement(cutter_, loop.poses[k - 1], loop.poses[k]);
+      if (here > most.first) most = {here, loop.shares[k]};
+    }
+    return most;
+  }
+
+  const ChannelLayer& layer_;
+  const Cutter& cutter_;
+  const CycleLimits& limits_;
+  StockGrid& stock_;
+  bool forward_, from_first_;
+  double low_ = 0.0, high_ = 1.0;  ///< shares across between which the next loop goes
+};
+
+}  // namespace
+
+std::vector<Strip> layer_cycles(const ChannelLayer& layer, const Cutter& cutter, const CycleLimits& limits,
+                                const std::string& face, StockGrid& stock) {
+  std::vector<Strip> out;
+  const Strip strip{.id = 1, .kind = "rough", .face = face, .poses = {}};
+  const bool forward = layer.open_before() || !layer.open_behind();
+  // What the one way leaves, material with no way in, the other one may come at.
+  for (const bool way : {forward, !forward})
+    if (Clearing(layer, cutter, limits, way, stock).run(strip, out)) break;
+  return out;
+}
+
+double loop_length(const Cutter& cutter) { return 2.0 * (1.0 + kDeepestShare) * cutter.tip(); }
+
+}  // namespace flank::internal

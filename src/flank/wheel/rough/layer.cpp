@@ -1,0 +1,203 @@
+#include "flank/wheel/rough/layer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "flank/base/parallel.h"
+
+namespace flank::internal {
+namespace {
+
+using Row = ChannelLayer::Row;
+
+constexpr int kColumns = 17;       ///< of places that are asked across a channel
+constexpr int kHalvings = 5;       ///< of the search for the outermost ones
+constexpr double kLineMm = 0.5;    ///< between lines square across
+constexpr double kOffShare = 0.8;  ///< of the width, from the middle to a place of a line
+constexpr double kGapShare = 0.2;  ///< of it, between places of a line
+constexpr int kAround = 3;         ///< rows, by which the way of the channel is known
+
+Pose between(const Pose& a, const Pose& b, double t) {
+  return {a.tip + t * (b.tip - a.tip), (a.axis + t * (b.axis - a.axis)).normalized()};
+}
+
+Pose on_row(const Row& row, double share) {
+  const double x = std::clamp(share, 0.0, 1.0) * static_cast<double>(row.size() - 1);
+  const auto k = std::min(static_cast<std::size_t>(x), row.size() - 2);
+  return between(row[k], row[k + 1], x - static_cast<double>(k));
+}
+
+/// The places of a row from one that has room to the last one before one that has none.
+double outermost(const ChannelPoses& poses, std::size_t row, double good, double bad) {
+  for (int k = 0; k < kHalvings; ++k) {
+    const double middle = 0.5 * (good + bad);
+    (poses.at(row, middle) ? good : bad) = middle;
+  }
+  return good;
+}
+
+/// Evenly over the longest run of places that have room; empty: there is none.
+Row row_of(const ChannelPoses& poses, std::size_t row) {
+  constexpr double kStep = 1.0 / (kColumns - 1);
+  int length = 0, first = 0, run = 0;
+  for (int c = 0; c < kColumns; ++c) {
+    run = poses.at(row, c * kStep) ? run + 1 : 0;
+    if (run > length) length = run, first = c + 1 - run;
+  }
+  if (length < 2) return {};
+  const int last = first + length - 1;
+  const double low = first == 0 ? 0.0 : outermost(poses, row, first * kStep, (first - 1) * kStep),
+               high = last == kColumns - 1 ? 1.0 : outermost(poses, row, last * kStep, (last + 1) * kStep);
+  Row out;
+  for (int c = 0; c < kColumns; ++c) {
+    const std::optional<Pose> pose = poses.at(row, std::lerp(low, high, c * kStep));
+    if (!pose) return {};
+    out.push_back(*pose);
+  }
+  return out;
+}
+
+/// A net of rows, whose columns go on straight beyond its ends by so much.
+struct Net {
+  const std::vector<Row>& rows;
+  double before, behind;
+  double wide = 0.0;  ///< across, of a row, at most
+  Net(const std::vector<Row>& all, double more_before, double more_behind)
+      : rows(all), before(more_before), behind(more_behind) {
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const auto middle = [&](std::size_t row) { return on_row(rows[row], 0.5).tip; };
+      const Vec3 way = (middle(std::min(k + kAround, rows.size() - 1)) - middle(k - std::min<std::size_t>(k, kAround)))
+                           .normalized(),
+                 across = rows[k].back().tip - rows[k].front().tip;
+      wide = std::max(wide, across.cross(way).norm());
+    }
+  }
+  /// Where a column crosses a plane nearest to the plane's point; none: it has ended there.
+  [[nodiscard]] std::optional<Pose> crossing(std::size_t column, const Vec3& point, const Vec3& normal) const {
+    const auto height = [&](std::size_t k) { return (rows[k][column].tip - point).dot(normal); };
+    // What a plane crosses farther off is another part of a channel that winds.
+    double least = kOffShare * kOffShare * wide * wide;
+    std::optional<Pose> out;
+    const auto take = [&](const Pose& pose) {
+      const double off = (pose.tip - point).squaredNorm();
+      if (off < least) least = off, out = pose;
+    };
+    for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
+      const double a = height(k), b = height(k + 1);
+      if (a <= 0.0 && b > 0.0) take(between(rows[k][column], rows[k + 1][column], a / (a - b)));
+    }
+    const auto beyond = [&](std::size_t at, std::size_t inner, double most) {
+      const Vec3 way = (rows[at][column].tip - rows[inner][column].tip).normalized();
+      const double slope = way.dot(normal), more = -height(at) / slope;
+      if (more >= 0.0 && more <= most) take({rows[at][column].tip + more * way, rows[at][column].axis});
+    };
+    beyond(0, kAround, before), beyond(rows.size() - 1, rows.size() - 1 - kAround, behind);
+    return out;
+  }
+  /// The longest run of columns that cross a plane, evenly; empty: fewer than two do.
+  [[nodiscard]] Row line(const Vec3& point, const Vec3& normal) const {
+    Row run, longest;
+    for (std::size_t c = 0; c < rows.front().size(); ++c) {
+      const std::optional<Pose> pose = crossing(c, point, normal);
+      if (!pose || (!run.empty() && (pose->tip - run.back().tip).norm() > kGapShare * wide)) run.clear();
+      if (!pose) continue;
+      run.push_back(*pose);
+      if (run.size() > longest.size()) longest = run;
+    }
+    return longest.size() > 1 ? longest : Row();
+  }
+};
+
+/// The middle of a stretch, even, and on beyond its ends as far as any column has not ended, and a way more where that is asked.
+struct MiddleLine {
+  std::vector<Vec3> points, ways;
+  MiddleLine(const std::vector<Row>& rows, double before, double behind) {
+    const auto middle = [](const Row& row) { return on_row(row, 0.5).tip; };
+    const auto leading = [&](const Row& row, const Vec3& way) {
+      double most = 0.0;
+      for (const Pose& pose : row) most = std::max(most, (pose.tip - middle(row)).dot(way));
+      return most;
+    };
+    std::vector<Vec3> line;
+    for (const Row& row : rows) line.push_back(middle(row));
+    const Vec3 first = (line[0] - line[kAround]).normalized(),
+               last = (line.back() - line[line.size() - 1 - kAround]).normalized();
+    line.insert(line.begin(), line.front() + (before + leading(rows.front(), first)) * first);
+    line.push_back(line.back() + (behind + leading(rows.back(), last)) * last);
+    double rest = 0.0;
+    for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+      const Vec3 side = line[k + 1] - line[k];
+      for (; rest < side.norm(); rest += kLineMm) points.emplace_back(line[k] + rest * side.normalized());
+      rest -= side.norm();
+    }
+    const int count = static_cast<int>(points.size());
+    for (int k = 0; k < count; ++k) {
+      const auto at = [&](int n) { return points[static_cast<std::size_t>(std::clamp(n, 0, count - 1))]; };
+      ways.emplace_back((at(k + kAround) - at(k - kAround)).normalized());
+    }
+  }
+};
+
+}  // namespace
+
+ChannelLayer::ChannelLayer(const std::vector<Row>& rows, bool open_before, bool open_behind, double over_mm)
+    : open_before_(open_before), open_behind_(open_behind) {
+  const Net net{rows, open_before ? over_mm : 0.0, open_behind ? over_mm : 0.0};
+  const MiddleLine middle(rows, net.before, net.behind);
+  std::vector<Row> found(middle.points.size());
+  parallel_for(found.size(), [&](std::size_t k) { found[k] = net.line(middle.points[k], middle.ways[k]); });
+  // Beyond the ends of all columns there is nothing.
+  const auto is_there = [](const Row& row) { return !row.empty(); };
+  const auto first = std::find_if(found.begin(), found.end(), is_there),
+             last = std::find_if_not(first, found.end(), is_there);
+  for (auto row = first; row != last; ++row)
+    lines_.push_back({kLineMm * static_cast<double>(row - first), (row->back().tip - row->front().tip).norm(), *row});
+}
+
+std::pair<std::size_t, double> ChannelLayer::place(double along) const {
+  const double x = std::clamp(along / kLineMm, 0.0, static_cast<double>(lines_.size() - 1));
+  const auto k = std::min(static_cast<std::size_t>(x), lines_.size() - 2);
+  return {k, x - static_cast<double>(k)};
+}
+
+double ChannelLayer::width(double along) const {
+  const auto [k, t] = place(along);
+  return std::lerp(lines_[k].width, lines_[k + 1].width, t);
+}
+
+Pose ChannelLayer::at(double along, double share) const {
+  const auto [k, t] = place(along);
+  return between(on_row(lines_[k].poses, share), on_row(lines_[k + 1].poses, share), t);
+}
+
+bool ChannelLayer::climbs_from_first() const {
+  const double middle = 0.5 * length();
+  const Vec3 across = at(middle, 1.0).tip - at(middle, 0.0).tip,
+             on = at(middle + kLineMm, 0.5).tip - at(middle - kLineMm, 0.5).tip;
+  // The material is to the right of a tool that climbs.
+  return across.cross(on).dot(at(middle, 0.5).axis) < 0.0;
+}
+
+void ChannelLayer::add_to(std::vector<Pose>& all) const {
+  for (const Line& line : lines_) all.insert(all.end(), line.poses.begin(), line.poses.end());
+}
+
+std::vector<ChannelLayer> layers_of(const ChannelPoses& poses, double over_mm) {
+  std::vector<Row> rows(poses.rows().size());
+  parallel_for(rows.size(), [&](std::size_t k) { rows[k] = row_of(poses, k); });
+  std::vector<ChannelLayer> out;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    std::size_t end = k;
+    while (end < rows.size() && !rows[end].empty()) ++end;
+    if (end - k > 2 * kAround) {
+      const std::vector<Row> run(rows.begin() + static_cast<std::ptrdiff_t>(k),
+                                 rows.begin() + static_cast<std::ptrdiff_t>(end));
+      const ChannelLayer layer(run, k == 0, end == rows.size(), over_mm);
+      if (layer.length() > 0.0) out.push_back(layer);
+    }
+    k = std::max(k, end);
+  }
+  return out;
+}
+
+}  // namespace flank::internal
