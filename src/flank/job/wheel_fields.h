@@ -32,8 +32,8 @@ void visit_wheel_work(Request& wheel, Visitor& visit) {
       wheel.blank);
   visit(FieldInfo{"allowance", "mm", kRoughing, "Stock of a turned blank over the part", kLength}, wheel.allowance_mm);
   visit(FieldInfo{"most_engagement", "deg", kRoughing,
-                  "Largest engagement in the simulation of roughing: below 180 by trochoidal cycles, else in slots", kTurn, Spelling::kPlain,
-                  "--engagement"},
+                  "Largest engagement in the simulation of roughing: below 180 by trochoidal cycles, else in slots",
+                  kTurn, Spelling::kPlain, "--engagement"},
         wheel.most_engagement_deg);
   visit(FieldInfo{"most_tilt", "deg", kProgram,
                   "Largest angle between the tool and the wheel's axis on passes of the tip: as far as the machine "
