@@ -37,9 +37,9 @@ double Cutter::largest_near(double s, double far) const {
   const auto at = [&](double x) {
     return static_cast<std::size_t>(std::clamp(x / step_, 0.0, static_cast<double>(kSteps)));
   };
-  const double more = largest_;  // a sphere is as high as it is thick
-  const std::size_t last = std::min<std::size_t>(at(s + far + more) + 1, kSteps);
-  return *std::max_element(radii_.begin() + static_cast<std::ptrdiff_t>(at(s - far - more)),
+  far += largest_;  // a sphere is as high as it is thick
+  const std::size_t last = std::min<std::size_t>(at(s + far) + 1, kSteps);
+  return *std::max_element(radii_.begin() + static_cast<std::ptrdiff_t>(at(s - far)),
                            radii_.begin() + static_cast<std::ptrdiff_t>(last) + 1);
 }
 

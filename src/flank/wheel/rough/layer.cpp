@@ -27,7 +27,7 @@ Pose on_row(const Row& row, double share) {
   return between(row[k], row[k + 1], x - static_cast<double>(k));
 }
 
-/// The places of a row from one that has room to the last one before one that has none.
+/// The share farthest from one that has room towards one that has none, by halving.
 double outermost(const ChannelPoses& poses, std::size_t row, double good, double bad) {
   for (int k = 0; k < kHalvings; ++k) {
     const double middle = 0.5 * (good + bad);
@@ -195,7 +195,7 @@ std::vector<ChannelLayer> layers_of(const ChannelPoses& poses, double over_mm) {
       const ChannelLayer layer(run, k == 0, end == rows.size(), over_mm);
       if (layer.length() > 0.0) out.push_back(layer);
     }
-    k = std::max(k, end);
+    k = end;
   }
   return out;
 }
