@@ -44,7 +44,7 @@ struct Wall {
 TEST(StockGrid, EngagesAsTheDepthInAWallSays) {
   for (const double deep : {0.1, 0.3, 0.7, 1.0, 1.5}) {
     Wall wall;
-    wall.stock.cut(wall.cutter, Wall::at(-4.0, deep), Wall::at(0.0, deep));
+    wall.stock.cut(wall.cutter, {Wall::at(-4.0, deep), Wall::at(0.0, deep)});
     EXPECT_NEAR(wall.stock.engagement(wall.cutter, Wall::at(0.0, deep), Wall::at(0.3, deep)), std::acos(1.0 - deep),
                 3.0 * kDegree)
         << deep;
@@ -55,7 +55,7 @@ TEST(StockGrid, MeetsNothingWhereItWasCut) {
   Wall wall;
   EXPECT_FALSE(wall.stock.meets(wall.cutter, Wall::at(0.0, -0.1)));
   EXPECT_TRUE(wall.stock.meets(wall.cutter, Wall::at(0.0, 0.2)));
-  wall.stock.cut(wall.cutter, Wall::at(-1.0, 0.2), Wall::at(1.0, 0.2));
+  wall.stock.cut(wall.cutter, {Wall::at(-1.0, 0.2), Wall::at(1.0, 0.2)});
   EXPECT_FALSE(wall.stock.meets(wall.cutter, Wall::at(0.0, 0.2)));
   EXPECT_TRUE(wall.stock.meets(wall.cutter, Wall::at(3.0, 0.2)));
   EXPECT_LT(wall.stock.engagement(wall.cutter, Wall::at(-0.2, 0.2), Wall::at(0.0, 0.2)), 1e-9);

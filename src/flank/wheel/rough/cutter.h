@@ -1,6 +1,8 @@
 /// A tool as roughing asks it: how far a place is from it, and the circles of its flank.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "flank/radial_function.h"
@@ -23,12 +25,22 @@ class Cutter {
   /// The largest radius between so far below and so far above a place of the axis, mm.
   [[nodiscard]] double largest_near(double s, double far) const;
   /// Of a place at height z over s = 0 and so far from the axis, to the nearest of the spheres, mm; < 0: inside. Exact for cylinders and cones.
-  [[nodiscard]] double distance(double z, double off) const;
+  [[nodiscard]] double distance(double z, double off) const {
+    const double s = std::clamp(z + off * leans_[piece(z)], 0.0, length_);
+    return std::sqrt(off * off + (z - s) * (z - s)) - radius(s);
+  }
 
  private:
-  [[nodiscard]] double radius(double s) const;
+  static constexpr int kPieces = 64;  ///< of the axis
+  [[nodiscard]] std::size_t piece(double s) const {
+    return static_cast<std::size_t>(std::clamp(s / step_, 0.0, static_cast<double>(kPieces - 1)));
+  }
+  [[nodiscard]] double radius(double s) const {
+    const std::size_t k = piece(s);
+    return radii_[k] + (s / step_ - static_cast<double>(k)) * (radii_[k + 1] - radii_[k]);
+  }
   double length_, step_, largest_;
-  std::vector<double> radii_, slopes_;
+  std::vector<double> radii_, leans_;  ///< how far up the sphere is that touches what is 1 mm off the axis
   std::vector<Circle> circles_;
 };
 

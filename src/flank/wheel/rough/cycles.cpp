@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "flank/base/parallel.h"
+
 namespace flank::internal {
 namespace {
 
@@ -62,8 +64,7 @@ class Clearing {
     return std::any_of(loop.poses.begin(), loop.poses.end(), [&](const Pose& p) { return stock_.meets(cutter_, p); });
   }
   void add(const std::vector<Pose>& loop, Strip& strip) {
-    stock_.cut(cutter_, loop.front(), loop.front());
-    for (std::size_t k = 1; k < loop.size(); ++k) stock_.cut(cutter_, loop[k - 1], loop[k]);
+    stock_.cut(cutter_, loop);
     strip.poses.insert(strip.poses.end(), loop.begin() + (strip.poses.empty() ? 0 : 1), loop.end());
   }
   /// The next loop, with as long a step as its engagement allows; where none is short enough it is not as wide, and those behind it widen again by
@@ -109,12 +110,12 @@ class Clearing {
   }
   /// Radians, the most of it, and at which share across.
   [[nodiscard]] std::pair<double, double> engagement(const Loop& loop) const {
-    std::pair<double, double> most{0.0, 0.5};
-    for (std::size_t k = 1; k < loop.poses.size(); ++k) {
-      const double here = stock_.engagement(cutter_, loop.poses[k - 1], loop.poses[k]);
-      if (here > most.first) most = {here, loop.shares[k]};
-    }
-    return most;
+    std::vector<double> all(loop.poses.size(), 0.0);
+    parallel_for(all.size() - 1, [&](std::size_t k) {
+      all[k + 1] = stock_.engagement(cutter_, loop.poses[k], loop.poses[k + 1]);
+    });
+    const auto most = std::max_element(all.begin(), all.end());
+    return {*most, loop.shares[static_cast<std::size_t>(most - all.begin())]};
   }
 
   const ChannelLayer& layer_;

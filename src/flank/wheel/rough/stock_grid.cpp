@@ -10,8 +10,7 @@ namespace flank::internal {
 namespace {
 
 constexpr double kFarCells = 2.0;
-constexpr double kStepShare = 0.25;  ///< of the tip's radius, between poses that are cut
-constexpr int kSteps = 20;           ///< of half of a circle
+constexpr int kSteps = 20;  ///< of half of a circle
 constexpr double kStillMm = 1e-9;
 
 }  // namespace
@@ -19,79 +18,148 @@ constexpr double kStillMm = 1e-9;
 StockGrid::StockGrid(const Box3& box, double cell_mm, const std::function<double(const Vec3&)>& depth)
     : cell_(cell_mm), far_(kFarCells * cell_mm), low_(box.low) {
   for (int k = 0; k < 3; ++k)
-    count_[static_cast<std::size_t>(k)] = 2 + static_cast<int>(std::ceil((box.high[k] - box.low[k]) / cell_));
-  depths_.resize(static_cast<std::size_t>(count_[0]) * static_cast<std::size_t>(count_[1]) *
-                 static_cast<std::size_t>(count_[2]));
-  parallel_for(static_cast<std::size_t>(count_[0]), [&](std::size_t x) {
-    for (int y = 0; y < count_[1]; ++y)
-      for (int z = 0; z < count_[2]; ++z) {
-        const Vec3 p = low_ + cell_ * Vec3(static_cast<double>(x), y, z);
-        depths_[index(static_cast<int>(x), y, z)] = static_cast<float>(std::clamp(depth(p), -far_, far_));
-      }
+    bricks_[static_cast<std::size_t>(k)] = 1 + static_cast<int>(std::ceil((box.high[k] - box.low[k]) / cell_)) / kSide;
+  air_.resize(brick(bricks_[0], 0, 0));
+  depths_.resize(air_.size() * kCorners);
+  parallel_for(air_.size(), [&](std::size_t one) {
+    const Vec3 first = corner(one);
+    float* here = depths_.data() + one * kCorners;
+    for (int x = 0; x < kSide; ++x)
+      for (int y = 0; y < kSide; ++y)
+        for (int z = 0; z < kSide; ++z)
+          *here++ =
+              static_cast<float>(std::clamp(depth(first + cell_ * Vec3(static_cast<double>(x), y, z)), -far_, far_));
+    air_[one] = std::all_of(here - kCorners, here, [&](float d) { return d <= static_cast<float>(-far_); }) ? 1 : 0;
   });
+}
+
+Vec3 StockGrid::corner(std::size_t brick) const {
+  const auto y = static_cast<std::size_t>(bricks_[1]), z = static_cast<std::size_t>(bricks_[2]);
+  return low_ + kSide * cell_ *
+                    Vec3(static_cast<double>(brick / (y * z)), static_cast<double>(brick / z % y),
+                         static_cast<double>(brick % z));
 }
 
 double StockGrid::depth(const Vec3& p) const {
   const Vec3 q = (p - low_) / cell_;
-  std::array<int, 3> at{};
+  std::array<std::size_t, 3> at{};
+  std::array<bool, 3> inside{};
   Vec3 t;
-  for (int k = 0; k < 3; ++k) {
-    const double floor = std::floor(q[k]);
-    if (!(floor >= 0.0 && floor < count_[static_cast<std::size_t>(k)] - 1)) return -far_;
-    at[static_cast<std::size_t>(k)] = static_cast<int>(floor), t[k] = q[k] - floor;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double floor = std::floor(q[static_cast<int>(k)]);
+    if (!(floor >= 0.0 && floor < kSide * bricks_[k] - 1)) return -far_;
+    at[k] = static_cast<std::size_t>(floor), t[static_cast<int>(k)] = q[static_cast<int>(k)] - floor;
+    inside[k] = at[k] % kSide != kSide - 1;
   }
-  const auto row = [&](int dx, int dy) {
-    const std::size_t n = index(at[0] + dx, at[1] + dy, at[2]);
-    return std::lerp(static_cast<double>(depths_[n]), static_cast<double>(depths_[n + 1]), t.z());
+  const auto place = [&](std::size_t x, std::size_t y, std::size_t z) {
+    const std::size_t one =
+        brick(static_cast<int>(x / kSide), static_cast<int>(y / kSide), static_cast<int>(z / kSide));
+    return one * kCorners + ((x % kSide) * kSide + y % kSide) * kSide + z % kSide;
+  };
+  const std::size_t first = place(at[0], at[1], at[2]);
+  const bool one_brick = inside[0] && inside[1] && inside[2];
+  if (one_brick && air_[first / kCorners] != 0) return -far_;
+  const auto row = [&](std::size_t dx, std::size_t dy) {
+    const std::size_t n = one_brick ? first + (dx * kSide + dy) * kSide : place(at[0] + dx, at[1] + dy, at[2]),
+                      next = one_brick ? n + 1 : place(at[0] + dx, at[1] + dy, at[2] + 1);
+    return std::lerp(static_cast<double>(depths_[n]), static_cast<double>(depths_[next]), t.z());
   };
   return std::lerp(std::lerp(row(0, 0), row(0, 1), t.y()), std::lerp(row(1, 0), row(1, 1), t.y()), t.x());
 }
 
-void StockGrid::cut(const Cutter& cutter, const Pose& from, const Pose& to) {
-  const double way = std::max((to.tip - from.tip).norm(), (to.at(cutter.length()) - from.at(cutter.length())).norm());
-  const int steps = std::max(1, static_cast<int>(std::ceil(way / (kStepShare * cutter.tip()))));
-  for (int k = 1; k <= steps; ++k) {
-    const double t = static_cast<double>(k) / steps;
-    cut(cutter, {from.tip + t * (to.tip - from.tip), (from.axis + t * (to.axis - from.axis)).normalized()});
+double StockGrid::Motion::distance(const Cutter& cutter, const Vec3& p) const {
+  const Vec3 off = p - from.tip;
+  const double s = std::clamp(off.dot(from.axis), 0.0, cutter.length());
+  const Vec3 way = tip_way + s * axis_way;
+  const double length = way.squaredNorm(),
+               t = length > kStillMm * kStillMm ? std::clamp((off - s * from.axis).dot(way) / length, 0.0, 1.0) : 0.0;
+  const Vec3 here = off - t * tip_way, axis = from.axis + t * axis_way;
+  // Between two unit vectors one is shorter.
+  const double z = here.dot(axis) / std::sqrt(axis.squaredNorm());
+  return cutter.distance(z, std::sqrt(std::max(0.0, here.squaredNorm() - z * z)));
+}
+
+std::vector<StockGrid::Motion> StockGrid::motions_of(const Cutter& cutter, const std::vector<Pose>& poses) {
+  std::vector<Motion> out;
+  double sum = 0.0;
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    if (k == 0 && poses.size() > 1) continue;
+    const Pose &from = poses[k - std::min<std::size_t>(k, 1)], &to = poses[k];
+    const Vec3 tip = to.tip - from.tip, axis = to.axis - from.axis;
+    const double moved = std::max(tip.norm(), (tip + cutter.length() * axis).norm()) + cutter.largest() * axis.norm();
+    out.push_back({from, tip, axis, moved, sum += moved});
+  }
+  return out;
+}
+
+void StockGrid::cut(const Cutter& cutter, const std::vector<Pose>& poses) {
+  const std::vector<Motion> motions = motions_of(cutter, poses);
+  std::vector<Touch> all;
+  for (std::size_t k = 0; k < motions.size(); ++k) touched(cutter, motions[k], k, all);
+  std::sort(all.begin(), all.end(), [](const Touch& a, const Touch& b) {
+    return a.brick != b.brick ? a.brick < b.brick : a.motion < b.motion;
+  });
+  std::vector<std::size_t> runs;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (k == 0 || all[k].brick != all[k - 1].brick) runs.push_back(k);
+  runs.push_back(all.size());
+  parallel_for(runs.size() - 1,
+               [&](std::size_t k) { cut(cutter, motions, all.data() + runs[k], all.data() + runs[k + 1]); });
+}
+
+void StockGrid::touched(const Cutter& cutter, const Motion& motion, std::size_t number, std::vector<Touch>& out) const {
+  // Slab by slab across the direction that the axis goes along most.
+  int main = 0;
+  motion.from.axis.cwiseAbs().maxCoeff(&main);
+  const double along = motion.from.axis[main], side = kSide * cell_;
+  const double tilt = std::sqrt(std::max(0.0, 1.0 - along * along)) / std::abs(along);
+  const int one = (main + 1) % 3, two = (main + 2) % 3;
+  const double a = motion.from.tip[main], b = a + cutter.length() * along,
+               beyond = cutter.largest() + far_ + motion.moved;
+  const auto slab = [&](double mm, int k) {
+    return static_cast<int>(std::clamp((mm - low_[k]) / side, 0.0, bricks_[static_cast<std::size_t>(k)] - 1.0));
+  };
+  const double around = 0.5 * std::numbers::sqrt3 * side;  // a brick, and the cell beyond it
+  for (int i = slab(std::min(a, b) - beyond, main), end = slab(std::max(a, b) + beyond, main); i <= end; ++i) {
+    const double s = (low_[main] + side * (i + 0.5) - a) / along;
+    const Vec3 middle = motion.from.at(s);
+    const double far = 0.5 * side / std::abs(along);
+    const double reach =
+        (cutter.largest_near(s, far + cutter.largest() * tilt) + far_ + motion.moved) / std::abs(along) + far * tilt;
+    std::array<int, 3> at{};
+    at[static_cast<std::size_t>(main)] = i;
+    for (int j = slab(middle[one] - reach, one), j_end = slab(middle[one] + reach, one); j <= j_end; ++j)
+      for (int k = slab(middle[two] - reach, two), k_end = slab(middle[two] + reach, two); k <= k_end; ++k) {
+        at[static_cast<std::size_t>(one)] = j, at[static_cast<std::size_t>(two)] = k;
+        const std::size_t here = brick(at[0], at[1], at[2]);
+        if (air_[here] != 0) continue;
+        const Vec3 center = corner(here) + Vec3::Constant(0.5 * (kSide - 1) * cell_);
+        if (motion.distance(cutter, center) <= around + far_) out.push_back({here, number});
+      }
   }
 }
 
-void StockGrid::cut(const Cutter& cutter, const Pose& pose) {
-  int main = 0;
-  pose.axis.cwiseAbs().maxCoeff(&main);
-  const double along = pose.axis[main];
-  const double tilt = std::sqrt(std::max(0.0, 1.0 - along * along)) / std::abs(along);
-  const int one = (main + 1) % 3, two = (main + 2) % 3;
-  const double a = pose.tip[main], b = a + cutter.length() * along;
-  const auto clip = [&](double x, int k) {
-    return static_cast<int>(std::clamp(x, 0.0, count_[static_cast<std::size_t>(k)] - 1.0));
-  };
-  const auto cell = [&](double mm, int k) { return (mm - low_[k]) / cell_; };
-  const double beyond = cutter.largest() + far_;
-  for (int i = clip(std::ceil(cell(std::min(a, b) - beyond, main)), main),
-           end = clip(std::floor(cell(std::max(a, b) + beyond, main)), main);
-       i <= end; ++i) {
-    const double height = low_[main] + cell_ * i;
-    const double s = (height - a) / along;
-    const Vec3 middle = pose.at(s);
-    // Across the main direction a tool that leans is longer than wide, and thicker where it goes on above.
-    const double reach = (cutter.largest_near(s, cutter.largest() * tilt) + far_) / std::abs(along);
-    std::array<int, 3> at{};
-    at[static_cast<std::size_t>(main)] = i;
-    for (int j = clip(std::ceil(cell(middle[one] - reach, one)), one),
-             j_end = clip(std::floor(cell(middle[one] + reach, one)), one);
-         j <= j_end; ++j)
-      for (int k = clip(std::ceil(cell(middle[two] - reach, two)), two),
-               k_end = clip(std::floor(cell(middle[two] + reach, two)), two);
-           k <= k_end; ++k) {
-        at[static_cast<std::size_t>(one)] = j, at[static_cast<std::size_t>(two)] = k;
-        float& here = depths_[index(at[0], at[1], at[2])];
-        if (here <= static_cast<float>(-far_)) continue;
-        const Vec3 off = low_ + cell_ * Vec3(at[0], at[1], at[2]) - pose.tip;
-        const double z = off.dot(pose.axis), across = std::sqrt(std::max(0.0, off.squaredNorm() - z * z));
-        here = std::min(here, static_cast<float>(std::max(-far_, cutter.distance(z, across))));
+void StockGrid::cut(const Cutter& cutter, const std::vector<Motion>& motions, const Touch* first, const Touch* last) {
+  const std::size_t one = first->brick;
+  const Vec3 low = corner(one);
+  const auto outside = static_cast<float>(-far_);
+  float* here = depths_.data() + one * kCorners;
+  bool air = true;
+  for (int x = 0; x < kSide; ++x)
+    for (int y = 0; y < kSide; ++y)
+      for (int z = 0; z < kSide; ++z, ++here) {
+        const Vec3 p = low + cell_ * Vec3(static_cast<double>(x), y, z);
+        // The tool comes nearer by no more than it moves: motions that are still too far off are passed over.
+        double off = -1e300, since = 0.0;
+        for (const Touch* touch = first; touch != last && *here > outside; ++touch) {
+          const Motion& motion = motions[touch->motion];
+          if (off - (motion.before - since) >= static_cast<double>(*here)) continue;
+          off = motion.distance(cutter, p), since = motion.before;
+          *here = std::min(*here, static_cast<float>(std::max(-far_, off)));
+        }
+        air = air && *here <= outside;
       }
-  }
+  air_[one] = air ? 1 : 0;
 }
 
 bool StockGrid::meets(const Cutter& cutter, const Pose& pose) const {

@@ -11,14 +11,16 @@
 namespace flank::internal {
 
 /// At each corner how deep it is in the material, mm, as far as two cells to either side; between them linear. So the surface is known to a small
-/// share of a cell, and what a tool engages to a few degrees.
+/// share of a cell, and what a tool engages to a few degrees. Corners lie in bricks, eight to a side, and a brick that is all air is passed over:
+/// what a tool meets again and again, the channel above a layer, costs nothing.
 class StockGrid {
  public:
   /// `depth`: of a place in the blank, mm; < 0: outside of it.
   StockGrid(const Box3& box, double cell_mm, const std::function<double(const Vec3&)>& depth);
 
-  /// Takes out what the tool sweeps between two poses.
-  void cut(const Cutter& cutter, const Pose& from, const Pose& to);
+  /// Takes out what the tool sweeps on its way along poses, one at least. From one to the next a place is as near to the tool as where it
+  /// passes it: exact for a cylinder or cone that moves across its axis.
+  void cut(const Cutter& cutter, const std::vector<Pose>& poses);
   /// Whether the tool, its tip sphere too, is in the material at all.
   [[nodiscard]] bool meets(const Cutter& cutter, const Pose& pose) const;
   /// The largest of the circles of the flank on the way from one pose to the next, at the second one, radians: as much of the half that goes ahead
@@ -26,17 +28,36 @@ class StockGrid {
   [[nodiscard]] double engagement(const Cutter& cutter, const Pose& from, const Pose& to) const;
 
  private:
-  void cut(const Cutter& cutter, const Pose& pose);
+  static constexpr int kSide = 8;  ///< corners of a brick, along each direction
+  static constexpr std::size_t kCorners = static_cast<std::size_t>(kSide) * kSide * kSide;
+  /// The way from a pose to the next.
+  struct Motion {
+    Pose from;
+    Vec3 tip_way, axis_way;
+    double moved;   ///< no place of the tool moves more, mm
+    double before;  ///< the same of all motions to the end of this one, mm
+    [[nodiscard]] double distance(const Cutter& cutter, const Vec3& p) const;
+  };
+  [[nodiscard]] static std::vector<Motion> motions_of(const Cutter& cutter, const std::vector<Pose>& poses);
+  /// A motion that may come to a brick.
+  struct Touch {
+    std::size_t brick, motion;
+  };
+  void touched(const Cutter& cutter, const Motion& motion, std::size_t number, std::vector<Touch>& out) const;
+  void cut(const Cutter& cutter, const std::vector<Motion>& motions, const Touch* first, const Touch* last);
   [[nodiscard]] double depth(const Vec3& p) const;
-  [[nodiscard]] std::size_t index(int x, int y, int z) const {
-    return (static_cast<std::size_t>(x) * static_cast<std::size_t>(count_[1]) + static_cast<std::size_t>(y)) *
-               static_cast<std::size_t>(count_[2]) +
+  /// Of a brick's first corner.
+  [[nodiscard]] Vec3 corner(std::size_t brick) const;
+  [[nodiscard]] std::size_t brick(int x, int y, int z) const {
+    return (static_cast<std::size_t>(x) * static_cast<std::size_t>(bricks_[1]) + static_cast<std::size_t>(y)) *
+               static_cast<std::size_t>(bricks_[2]) +
            static_cast<std::size_t>(z);
   }
   double cell_, far_;
   Vec3 low_;
-  std::array<int, 3> count_;
-  std::vector<float> depths_;
+  std::array<int, 3> bricks_;
+  std::vector<float> depths_;  ///< brick by brick
+  std::vector<char> air_;      ///< of each brick: whether all of its corners are as far outside as is told
 };
 
 }  // namespace flank::internal
