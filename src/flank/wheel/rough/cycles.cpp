@@ -11,13 +11,17 @@
 namespace flank::internal {
 namespace {
 
-constexpr double kDeepestShare = 1.5;            ///< of the tip's radius: so far a front half bows ahead at most
-constexpr double kBackShare = 0.4;               ///< of that, by which the back half bows behind
-constexpr double kApartShare = 0.3;              ///< of the tip's radius, between poses
-constexpr int kFewest = 8;                       ///< poses of a half
+constexpr double kBendShare = 1.5;   ///< of the tip's radius, that a front half bends by at its ends at least
+constexpr double kOverShare = 4.0;   ///< of it, by which a layer goes on where it is open
+constexpr double kBackShare = 0.4;   ///< of that, by which the back half bows behind
+constexpr double kApartShare = 0.3;  ///< of the tip's radius, between poses
+constexpr int kFewest = 8;           ///< poses of a half
 constexpr double kLonger = 1.3, kShorter = 0.7;  ///< than the last one a step is tried
 constexpr double kPlannedShare = 0.85;           ///< of the engagement that is allowed, by which steps are chosen
-constexpr double kNarrow = 0.05, kWiden = 0.02, kNarrowest = 0.3;  ///< shares of the channel's width
+constexpr double kNarrowShare = 0.1;             ///< of the tip's radius, by which a loop gives way to one side
+constexpr double kWidenShare = 0.25;     ///< of a step, by which the next loop is wider: at its ends it bends sharply
+constexpr double kNarrowestShare = 0.3;  ///< of the channel's width
+constexpr double kIdleShare = 1.0;  ///< of the tip's radius, from the last loop that cut to the next one of a strip
 
 /// Closed: a front half that cuts, then a back half.
 struct Loop {
@@ -37,19 +41,20 @@ class Clearing {
 
   /// Whether all loops went from side to side.
   bool run(Strip strip, std::vector<Strip>& out) {
-    const double most = limits_.most_step_share * cutter_.tip();
-    double step = most;
+    const double r = cutter_.tip(), most = limits_.most_step_share * r;
+    double step = most, idle = 0.0;
     bool all = true;
     for (double place = 0.0; place < layer_.length();) {
       step = std::min(most, kLonger * step);
-      low_ = std::max(0.0, low_ - kWiden), high_ = std::min(1.0, high_ + kWiden);
       const std::optional<Loop> loop = fitting(place, strip, step);
       all = all && loop && low_ == 0.0 && high_ == 1.0;
-      place += loop ? step : most;
+      if (!loop) low_ = 0.0, high_ = 1.0;
+      place += loop ? step : most, idle += loop ? step : kIdleShare * r;
       if (loop && cuts(*loop))
-        add(loop->poses, strip);
-      else
+        add(loop->poses, strip), idle = 0.0;
+      else if (idle >= kIdleShare * r)
         end(strip, out);
+      widen(place, step);
     }
     end(strip, out);
     return all;
@@ -67,11 +72,11 @@ class Clearing {
     stock_.cut(cutter_, loop);
     strip.poses.insert(strip.poses.end(), loop.begin() + (strip.poses.empty() ? 0 : 1), loop.end());
   }
-  /// The next loop, with as long a step as its engagement allows; where none is short enough it is not as wide, and those behind it widen again by
-  /// and by. None where a narrow one engages too much, too.
+  /// The next loop, with as long a step as its engagement allows; where none is short enough it is not as wide. None where a narrow one
+  /// engages too much, too.
   [[nodiscard]] std::optional<Loop> fitting(double place, const Strip& strip, double& step) {
     const double least = limits_.least_step_share * cutter_.tip();
-    while (high_ - low_ > kNarrowest) {
+    while (high_ - low_ > kNarrowestShare) {
       Loop loop = loop_at(place + step);
       // From loop to loop the tool goes on.
       if (!strip.poses.empty()) {
@@ -79,23 +84,28 @@ class Clearing {
         loop.shares.insert(loop.shares.begin(), loop.shares.front());
       }
       const auto [in, at] = engagement(loop);
-      if (in <= (step > least ? kPlannedShare : 1.0) * limits_.most_engagement_rad) return loop;
+      if (in <= kPlannedShare * limits_.most_engagement_rad) return loop;
       if (step > least)
         step = std::max(least, kShorter * step);
       else if (at < 0.5 * (low_ + high_))
-        low_ += kNarrow;
+        low_ += kNarrowShare * share_of(place);
       else
-        high_ -= kNarrow;
+        high_ -= kNarrowShare * share_of(place);
     }
-    low_ = high_ = 0.5;
     return {};
   }
+  void widen(double place, double step) {
+    const double more = kWidenShare * step / cutter_.tip() * share_of(place);
+    low_ = std::max(0.0, low_ - more), high_ = std::min(1.0, high_ + more);
+  }
+  /// Of the tip's radius, across the channel.
+  [[nodiscard]] double share_of(double place) const { return cutter_.tip() / layer_.width(on(place)); }
   /// A way that counts from where it begins.
   [[nodiscard]] double on(double place) const { return forward_ ? place : layer_.length() - place; }
   /// Its front half is ahead by `place` from where the stretch begins, at most.
   [[nodiscard]] Loop loop_at(double place) const {
     const double r = cutter_.tip(), width = (high_ - low_) * layer_.width(on(place)),
-                 deep = std::min(0.5 * width, kDeepestShare * r), back = kBackShare * deep;
+                 deep = std::min(0.5 * width, std::sqrt(0.5 * width * kBendShare * r)), back = kBackShare * deep;
     const int count = std::max(kFewest, static_cast<int>(std::ceil((width + deep) / (kApartShare * r))));
     Loop out;
     for (const bool front : {true, false})
@@ -111,9 +121,8 @@ class Clearing {
   /// Radians, the most of it, and at which share across.
   [[nodiscard]] std::pair<double, double> engagement(const Loop& loop) const {
     std::vector<double> all(loop.poses.size(), 0.0);
-    parallel_for(all.size() - 1, [&](std::size_t k) {
-      all[k + 1] = stock_.engagement(cutter_, loop.poses[k], loop.poses[k + 1]);
-    });
+    parallel_for(all.size() - 1,
+                 [&](std::size_t k) { all[k + 1] = stock_.engagement(cutter_, loop.poses[k], loop.poses[k + 1]); });
     const auto most = std::max_element(all.begin(), all.end());
     return {*most, loop.shares[static_cast<std::size_t>(most - all.begin())]};
   }
@@ -139,6 +148,6 @@ std::vector<Strip> layer_cycles(const ChannelLayer& layer, const Cutter& cutter,
   return out;
 }
 
-double loop_length(const Cutter& cutter) { return 2.0 * (1.0 + kDeepestShare) * cutter.tip(); }
+double loop_length(const Cutter& cutter) { return 2.0 * kOverShare * cutter.tip(); }
 
 }  // namespace flank::internal

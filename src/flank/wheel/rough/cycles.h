@@ -12,7 +12,7 @@ namespace flank::internal {
 
 struct CycleLimits {
   double most_engagement_rad = 1.0;
-  double most_step_share = 0.6, least_step_share = 0.04;  ///< of the tip's radius, from cycle to cycle
+  double most_step_share = 0.6, least_step_share = 0.03;  ///< of the tip's radius, from cycle to cycle
 };
 
 /// Closed loops from side to side, each a step further along the channel than the one before: a front half that cuts, round ahead, and a back half

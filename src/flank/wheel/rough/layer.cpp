@@ -10,12 +10,13 @@ namespace {
 
 using Row = ChannelLayer::Row;
 
-constexpr int kColumns = 17;       ///< of places that are asked across a channel
-constexpr int kHalvings = 5;       ///< of the search for the outermost ones
-constexpr double kLineMm = 0.5;    ///< between lines square across
-constexpr double kOffShare = 0.8;  ///< of the width, from the middle to a place of a line
-constexpr double kGapShare = 0.2;  ///< of it, between places of a line
-constexpr int kAround = 3;         ///< rows, by which the way of the channel is known
+constexpr int kColumns = 17;         ///< of places that are asked across a channel
+constexpr int kHalvings = 5;         ///< of the search for the outermost ones
+constexpr double kLineMm = 0.5;      ///< between lines square across
+constexpr double kOffShare = 0.8;    ///< of the width, from the middle to a place of a line
+constexpr double kGapShare = 0.2;    ///< of it, between places of a line
+constexpr int kAround = 3;           ///< rows, by which the way of the channel is known
+constexpr std::size_t kBridged = 2;  ///< rows without room, over which a stretch goes on
 
 Pose between(const Pose& a, const Pose& b, double t) {
   return {a.tip + t * (b.tip - a.tip), (a.axis + t * (b.axis - a.axis)).normalized()};
@@ -36,8 +37,8 @@ double outermost(const ChannelPoses& poses, std::size_t row, double good, double
   return good;
 }
 
-/// Evenly over the longest run of places that have room; empty: there is none.
-Row row_of(const ChannelPoses& poses, std::size_t row) {
+/// The first and the last share of a row that all have room between them: the longest run of places, and on to where there is none.
+std::optional<std::pair<double, double>> room_of(const ChannelPoses& poses, std::size_t row) {
   constexpr double kStep = 1.0 / (kColumns - 1);
   int length = 0, first = 0, run = 0;
   for (int c = 0; c < kColumns; ++c) {
@@ -46,15 +47,32 @@ Row row_of(const ChannelPoses& poses, std::size_t row) {
   }
   if (length < 2) return {};
   const int last = first + length - 1;
-  const double low = first == 0 ? 0.0 : outermost(poses, row, first * kStep, (first - 1) * kStep),
-               high = last == kColumns - 1 ? 1.0 : outermost(poses, row, last * kStep, (last + 1) * kStep);
-  Row out;
-  for (int c = 0; c < kColumns; ++c) {
-    const std::optional<Pose> pose = poses.at(row, std::lerp(low, high, c * kStep));
-    if (!pose) return {};
-    out.push_back(*pose);
+  return std::pair(first == 0 ? 0.0 : outermost(poses, row, first * kStep, (first - 1) * kStep),
+                   last == kColumns - 1 ? 1.0 : outermost(poses, row, last * kStep, (last + 1) * kStep));
+}
+
+/// Evenly over the longest run of places that have room; empty: there is none.
+Row row_of(const ChannelPoses& poses, std::size_t row) {
+  const auto room = room_of(poses, row);
+  if (!room) return {};
+  auto [low, high] = *room;
+  const double least = (high - low) / kColumns;
+  while (high - low > least) {
+    Row out;
+    std::optional<double> none;
+    for (int c = 0; c < kColumns && !none; ++c) {
+      const double share = std::lerp(low, high, c / (kColumns - 1.0));
+      const std::optional<Pose> pose = poses.at(row, share);
+      if (pose)
+        out.push_back(*pose);
+      else
+        none = share;
+    }
+    if (!none) return out;
+    // A place between those that were asked first: the longer side of it.
+    (*none - low > high - *none ? high : low) = *none + (*none - low > high - *none ? -least : least);
   }
-  return out;
+  return {};
 }
 
 /// A net of rows, whose columns go on straight beyond its ends by so much.
@@ -187,15 +205,15 @@ std::vector<ChannelLayer> layers_of(const ChannelPoses& poses, double over_mm) {
   parallel_for(rows.size(), [&](std::size_t k) { rows[k] = row_of(poses, k); });
   std::vector<ChannelLayer> out;
   for (std::size_t k = 0; k < rows.size(); ++k) {
+    std::vector<Row> run;
     std::size_t end = k;
-    while (end < rows.size() && !rows[end].empty()) ++end;
-    if (end - k > 2 * kAround) {
-      const std::vector<Row> run(rows.begin() + static_cast<std::ptrdiff_t>(k),
-                                 rows.begin() + static_cast<std::ptrdiff_t>(end));
+    for (std::size_t n = k; n < rows.size() && n <= end + kBridged; ++n)
+      if (!rows[n].empty()) run.push_back(rows[n]), end = n + 1;
+    if (run.size() > 2 * kAround) {
       const ChannelLayer layer(run, k == 0, end == rows.size(), over_mm);
       if (layer.length() > 0.0) out.push_back(layer);
     }
-    k = end;
+    k = std::max(k, end);
   }
   return out;
 }

@@ -13,6 +13,22 @@ constexpr double kFarCells = 2.0;
 constexpr int kSteps = 20;  ///< of half of a circle
 constexpr double kStillMm = 1e-9;
 
+/// std::lerp sees to infinities, too.
+double between(double a, double b, double t) { return a + t * (b - a); }
+
+/// Cosine and sine from a quarter of a turn to the right of ahead to one to the left.
+const std::array<Vec2, kSteps + 1>& half_circle() {
+  static const auto all = [] {
+    std::array<Vec2, kSteps + 1> out;
+    for (int k = 0; k <= kSteps; ++k) {
+      const double angle = (static_cast<double>(k) / kSteps - 0.5) * std::numbers::pi;
+      out[static_cast<std::size_t>(k)] = {std::cos(angle), std::sin(angle)};
+    }
+    return out;
+  }();
+  return all;
+}
+
 }  // namespace
 
 StockGrid::StockGrid(const Box3& box, double cell_mm, const std::function<double(const Vec3&)>& depth)
@@ -62,9 +78,9 @@ double StockGrid::depth(const Vec3& p) const {
   const auto row = [&](std::size_t dx, std::size_t dy) {
     const std::size_t n = one_brick ? first + (dx * kSide + dy) * kSide : place(at[0] + dx, at[1] + dy, at[2]),
                       next = one_brick ? n + 1 : place(at[0] + dx, at[1] + dy, at[2] + 1);
-    return std::lerp(static_cast<double>(depths_[n]), static_cast<double>(depths_[next]), t.z());
+    return between(static_cast<double>(depths_[n]), static_cast<double>(depths_[next]), t.z());
   };
-  return std::lerp(std::lerp(row(0, 0), row(0, 1), t.y()), std::lerp(row(1, 0), row(1, 1), t.y()), t.x());
+  return between(between(row(0, 0), row(0, 1), t.y()), between(row(1, 0), row(1, 1), t.y()), t.x());
 }
 
 double StockGrid::Motion::distance(const Cutter& cutter, const Vec3& p) const {
@@ -185,15 +201,15 @@ double StockGrid::engagement(const Cutter& cutter, const Pose& from, const Pose&
     ahead -= ahead.dot(to.axis) * to.axis;
     if (ahead.norm() < kStillMm) continue;
     ahead.normalize();
-    const Vec3 middle = to.at(circle.middle), aside = to.axis.cross(ahead);
-    const double step = std::numbers::pi / kSteps;
-    double in = 0.0, last = 0.0;
-    for (int k = 0; k <= kSteps; ++k) {
-      const double angle = k * step - 0.5 * std::numbers::pi;
-      const double here = depth(middle + circle.radius * (std::cos(angle) * ahead + std::sin(angle) * aside));
-      if (k > 0 && (last > 0.0 || here > 0.0))
-        in += last > 0.0 && here > 0.0 ? step
-                                       : step * std::max(last, here) / (std::max(last, here) - std::min(last, here));
+    const Vec3 middle = to.at(circle.middle), aside = circle.radius * to.axis.cross(ahead);
+    ahead *= circle.radius;
+    constexpr double kStep = std::numbers::pi / kSteps;
+    double in = 0.0, last = -1.0;
+    for (const Vec2& way : half_circle()) {
+      const double here = depth(middle + way.x() * ahead + way.y() * aside);
+      if (&way != half_circle().data() && (last > 0.0 || here > 0.0))
+        in += last > 0.0 && here > 0.0 ? kStep
+                                       : kStep * std::max(last, here) / (std::max(last, here) - std::min(last, here));
       last = here;
     }
     most = std::max(most, in);
