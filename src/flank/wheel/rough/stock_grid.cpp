@@ -194,9 +194,27 @@ bool StockGrid::meets(const Cutter& cutter, const Pose& pose) const {
   return false;
 }
 
+bool StockGrid::is_air(const Vec3& middle, double radius) const {
+  std::array<int, 3> low{}, high{};
+  for (int k = 0; k < 3; ++k) {
+    const auto one = static_cast<std::size_t>(k);
+    const auto slab = [&](double mm) {
+      return static_cast<int>(std::clamp((mm - low_[k]) / (kSide * cell_), 0.0, bricks_[one] - 1.0));
+    };
+    // A place between the last corner of a brick and the next one's first is of both.
+    low[one] = slab(middle[k] - radius), high[one] = slab(middle[k] + radius + cell_);
+  }
+  for (int x = low[0]; x <= high[0]; ++x)
+    for (int y = low[1]; y <= high[1]; ++y)
+      for (int z = low[2]; z <= high[2]; ++z)
+        if (air_[brick(x, y, z)] == 0) return false;
+  return true;
+}
+
 double StockGrid::engagement(const Cutter& cutter, const Pose& from, const Pose& to) const {
   double most = 0.0;
   for (const Cutter::Circle& circle : cutter.circles()) {
+    if (is_air(to.at(circle.middle), circle.radius)) continue;
     Vec3 ahead = to.at(circle.s) - from.at(circle.s);
     ahead -= ahead.dot(to.axis) * to.axis;
     if (ahead.norm() < kStillMm) continue;

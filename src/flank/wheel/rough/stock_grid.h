@@ -46,6 +46,8 @@ class StockGrid {
   void touched(const Cutter& cutter, const Motion& motion, std::size_t number, std::vector<Touch>& out) const;
   void cut(const Cutter& cutter, const std::vector<Motion>& motions, const Touch* first, const Touch* last);
   [[nodiscard]] double depth(const Vec3& p) const;
+  /// Whether all is air in a box around a place, as far as a radius.
+  [[nodiscard]] bool is_air(const Vec3& middle, double radius) const;
   /// Of a brick's first corner.
   [[nodiscard]] Vec3 corner(std::size_t brick) const;
   [[nodiscard]] std::size_t brick(int x, int y, int z) const {
