@@ -18,10 +18,11 @@ struct WheelRequest {
   std::optional<std::string> tool;  ///< a tool.json, a family or "free"
   std::optional<double> sample_mm;  ///< judge by samples alone; their spacing in the fits
   bool rough = true, edges = true;
-  std::optional<std::string> blank;    ///< a closed body, CAD or mesh; none: turned about the part
-  double allowance_mm = 0.5;           ///< of a turned blank, > 0
-  double most_engagement_deg = 180.0;  ///< that roughing may have, in (0, 180]; 180: slots are allowed
-  double most_tilt_deg = 100.0;        ///< between the tool and the wheel's axis on passes of the tip, in (0, 180]
+  std::optional<std::string> blank;   ///< a closed body, CAD or mesh; none: turned about the part
+  double allowance_mm = 0.5;          ///< of a turned blank, > 0
+  double most_engagement_deg = 90.0;  ///< that roughing may have, in (0, 180]
+  double balance = 8.0;               ///< thicknesses by which roughing lets a blade stand free on one side alone, >= 1
+  double most_tilt_deg = 100.0;       ///< between the tool and the wheel's axis on passes of the tip, in (0, 180]
   std::optional<std::string> hub;
   std::vector<std::string> blades, splitters;  ///< one list a blade
   std::optional<int> count;                    ///< of equal sectors in a whole turn

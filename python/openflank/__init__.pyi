@@ -749,7 +749,8 @@ def wheel(
     edges: bool = True,
     blank: _File | None = None,
     allowance_mm: float = 0.5,
-    most_engagement_deg: float = 180.0,
+    most_engagement_deg: float = 90.0,
+    balance: float = 8.0,
     most_tilt_deg: float = 100.0,
     hub: str | None = None,
     blades: Sequence[str] = (),
@@ -774,7 +775,9 @@ def wheel(
     blank, allowance_mm
         A closed body in the part's place, as a file. None: turned about the part, with this allowance.
     most_engagement_deg
-        The largest engagement that the simulation of roughing may show: below 180 by trochoidal cycles, else in slots.
+        The largest engagement of the tool while roughing, by trochoidal cycles: 90 is half of its width.
+    balance
+        How far roughing lets a blade stand free on one side alone, in thicknesses of the thinnest blade.
     most_tilt_deg
         The largest angle between the tool and the wheel's axis on passes of the tip: as far as the machine tilts the part.
     hub, blades, splitters, count

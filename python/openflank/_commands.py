@@ -49,8 +49,8 @@ def machine(name):
 
 
 def wheel(part, folder, *, tolerance_mm=0.05, unit=None, tool=None, coverage=0.97, effort="quick", sample_mm=None, rough=True,
-          edges=True, blank=None, allowance_mm=0.5, most_engagement_deg=180.0, most_tilt_deg=100.0, hub=None, blades=(),
-          splitters=(), count=None, progress=None):
+          edges=True, blank=None, allowance_mm=0.5, most_engagement_deg=90.0, balance=8.0, most_tilt_deg=100.0, hub=None,
+          blades=(), splitters=(), count=None, progress=None):
     """Mills a whole wheel, as flank wheel does: plan.json as a dict (docs/schema/wheel.md). The results lie in the folder.
 
     part, unit
@@ -68,7 +68,9 @@ def wheel(part, folder, *, tolerance_mm=0.05, unit=None, tool=None, coverage=0.9
     blank, allowance_mm
         A closed body in the part's place, as a file. None: turned about the part, with this allowance.
     most_engagement_deg
-        The largest engagement that the simulation of roughing may show: below 180 by trochoidal cycles, else in slots.
+        The largest engagement of the tool while roughing, by trochoidal cycles: 90 is half of its width.
+    balance
+        How far roughing lets a blade stand free on one side alone, in thicknesses of the thinnest blade.
     most_tilt_deg
         The largest angle between the tool and the wheel's axis on passes of the tip: as far as the machine tilts the part.
     hub, blades, splitters, count
@@ -83,7 +85,7 @@ def wheel(part, folder, *, tolerance_mm=0.05, unit=None, tool=None, coverage=0.9
              "tool": None if tool is None else os.fspath(tool), "coverage": coverage, "effort": effort, "sample_mm": sample_mm,
              "rough": rough, "edges": edges,
              "blank": None if blank is None else os.fspath(blank), "allowance_mm": allowance_mm,
-             "most_engagement_deg": most_engagement_deg, "most_tilt_deg": most_tilt_deg,
+             "most_engagement_deg": most_engagement_deg, "balance": balance, "most_tilt_deg": most_tilt_deg,
              "hub": hub, "blades": list(blades), "splitters": list(splitters), "count": count}
     for name, value in given.items():
         setattr(request, name, value)

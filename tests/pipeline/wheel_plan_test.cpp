@@ -8,6 +8,7 @@
 #include "flank/base/atomic_file.h"
 #include "flank/error.h"
 #include "flank/path_file.h"
+#include "flank/pipeline/folder/free_height.h"
 #include "flank/pipeline/folder/judge_roughing.h"
 #include "flank/pipeline/program/operation_words.h"
 #include "temporary_folder.h"
@@ -18,7 +19,7 @@ namespace {
 
 constexpr const char* kPlan = R"({"schema": "openflank/plan/1",
   "axis": {"point_mm": [1, 0, 0], "direction": [0, 0, 2]}, "copies": 3, "sectors": 3, "whole": true,
-  "most_engagement_deg": 120, "blank": {"file": "blank.stl", "from": "turned"},
+  "most_engagement_deg": 120, "most_free_mm": 4.5, "blank": {"file": "blank.stl", "from": "turned"},
   "operations": [
     {"id": "10", "kind": "rough", "folder": "ops/10-rough", "copies": 3, "done": true},
     {"id": "20", "kind": "side", "folder": "ops/20-side", "copies": 3, "done": true},
@@ -53,10 +54,11 @@ TEST_F(WheelPlanFile, SaysWhatIsMachinedAndHowOften) {
   EXPECT_FALSE(plan.up);
   EXPECT_EQ(plan.sectors, 3);
   EXPECT_EQ(plan.most_engagement_deg, 120.0);
+  EXPECT_EQ(plan.most_free_mm, 4.5);
   EXPECT_EQ(plan.blank, (root_ / "blank.stl").string());
   ASSERT_EQ(plan.steps.size(), 3U);
-  ASSERT_NE(plan.roughing(), nullptr);
-  EXPECT_EQ(plan.roughing()->folder, (root_ / "ops/10-rough").string());
+  ASSERT_EQ(plan.roughing().size(), 1U);
+  EXPECT_EQ(plan.roughing().front()->folder, (root_ / "ops/10-rough").string());
   EXPECT_FALSE(plan.steps[2].done);
   EXPECT_EQ(plan.steps[2].problem, "no room");
   std::string turned_over = kPlan;
@@ -167,6 +169,57 @@ TEST(JudgedRoughing, AnEngagementAboveTheLimitIsAReason) {
     EXPECT_EQ(acceptance.pass(), most > 130.0);
     if (acceptance.pass()) continue;
     EXPECT_NE(acceptance.reasons.front().text.find("roughing: stock simulation"), std::string::npos);
+  }
+}
+
+/// A hub [0, 40] x [0, 20] in y = 0, and the side of a blade on it, 9 mm high.
+flank::internal::Setup blade_on_a_hub() {
+  flank::internal::Setup setup;
+  Face side = test::plane_face("F2", 40.0, 20.0);
+  for (Vec3& p : side.surface.poles) p = Vec3(p.x(), 9.0 * p.z() / 20.0, 10.0);
+  setup.part.faces = {test::plane_face("F1", 40.0, 20.0), side};
+  setup.tolerance_mm = 0.05;
+  return setup;
+}
+
+/// Tips of radius 1 along x with their spheres so high over the hub.
+Path layers_at(const std::vector<double>& heights) {
+  Path out;
+  for (const double height : heights)
+    out.strips.push_back(
+        {1,
+         "rough",
+         "F1",
+         {{Vec3(2.0, height + 1.0, 8.0), Vec3::UnitY()}, {Vec3(38.0, height + 1.0, 8.0), Vec3::UnitY()}}});
+  return out;
+}
+
+TEST(FreeHeight, IsHowMuchDeeperAnOperationIsThanTheOneBeforeIt) {
+  WheelPlan plan;
+  plan.steps = {{.id = "10.1", .kind = "rough", .folder = "", .faces = {"F1"}, .problem = ""},
+                {.id = "20", .kind = "side", .folder = "", .faces = {"F2"}, .problem = ""}};
+  const flank::internal::Setup setup = blade_on_a_hub();
+  const auto free = [&](const std::vector<Path>& operations) { return free_height(plan, setup, operations, 1.0); };
+  EXPECT_NEAR(free({layers_at({6.0, 3.0, 0.5})}), 8.5, 1e-6) << "one operation: the whole side";
+  EXPECT_NEAR(free({layers_at({6.0}), layers_at({3.0}), layers_at({0.5})}), 3.0, 1e-6);
+  EXPECT_NEAR(free({layers_at({6.0}), layers_at({3.0, 0.5})}), 5.5, 1e-6);
+  EXPECT_NEAR(free({layers_at({0.5}), layers_at({3.0})}), 8.5, 1e-6) << "an operation in the air frees nothing";
+  plan.steps.pop_back();
+  EXPECT_EQ(free({layers_at({0.5})}), 0.0) << "no side is known";
+}
+
+TEST(JudgedRoughing, ABladeThatStandsFreeTooFarIsAReason) {
+  JudgedRoughing roughing;
+  roughing.tool.radial = RadialFunction(ToolFamily::kCylinder, 12.0, Eigen::VectorXd::Constant(1, 2.0));
+  roughing.cuts.verdict = Verdict::kPass, roughing.cuts.tolerance_mm = 0.05;
+  roughing.free_mm = 4.0;
+  for (const double most : {0.0, 3.0, 5.0}) {
+    roughing.most_free_mm = most;
+    Acceptance acceptance;
+    accept_steps({}, roughing, acceptance);
+    EXPECT_EQ(acceptance.pass(), most != 3.0) << most;
+    if (acceptance.pass()) continue;
+    EXPECT_NE(acceptance.reasons.front().text.find("stands free on one side by 4.00 mm > 3.00"), std::string::npos);
   }
 }
 

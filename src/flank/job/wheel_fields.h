@@ -12,6 +12,9 @@ namespace flank::internal::accepted {
 inline constexpr Accepted kSectors{"expected a number from 1 to 1000",
                                    [](double x) { return x >= 1.0 && x <= 1000.0; }};
 
+inline constexpr Accepted kThicknesses{"expected a number of thicknesses, 1 or more",
+                                       [](double x) { return x >= 1.0 && x < 1e300; }};
+
 }  // namespace flank::internal::accepted
 
 namespace flank::internal {
@@ -32,9 +35,14 @@ void visit_wheel_work(Request& wheel, Visitor& visit) {
       wheel.blank);
   visit(FieldInfo{"allowance", "mm", kRoughing, "Stock of a turned blank over the part", kLength}, wheel.allowance_mm);
   visit(FieldInfo{"most_engagement", "deg", kRoughing,
-                  "Largest engagement in the simulation of roughing: below 180 by trochoidal cycles, else in slots",
-                  kTurn, Spelling::kPlain, "--engagement"},
+                  "Largest engagement of the tool while roughing, by trochoidal cycles: 90 is half of its width", kTurn,
+                  Spelling::kPlain, "--engagement"},
         wheel.most_engagement_deg);
+  visit(FieldInfo{"balance", "", kRoughing,
+                  "How far roughing lets a blade stand free on one side alone, in thicknesses of the thinnest blade: "
+                  "then the other channels are cut as deep",
+                  kThicknesses},
+        wheel.balance);
   visit(FieldInfo{"most_tilt", "deg", kProgram,
                   "Largest angle between the tool and the wheel's axis on passes of the tip: as far as the machine "
                   "tilts the part",

@@ -71,7 +71,8 @@ nlohmann::ordered_json rest_json(const std::vector<RestPlace>& rest) {
 nlohmann::ordered_json roughing_json(const JudgedRoughing& roughing) {
   const StockReport& stock = roughing.stock;
   nlohmann::ordered_json json{{"deepest_cut_mm", roughing.cuts.gouge_mm},
-                              {"cut_bound_mm", roughing.cuts.gouge_bound_mm}};
+                              {"cut_bound_mm", roughing.cuts.gouge_bound_mm},
+                              {"free_mm", roughing.free_mm}};
   for (const StockKind& kind : stock.kinds)
     json.update({{"engagement_deg", kind.engagement_deg},
                  {"resolution_deg", stock.resolution_deg},
@@ -180,6 +181,7 @@ std::string plan_json(const WheelResult& result) {
   if (result.hub_sectors > 0.0) json["hub_sectors"] = result.hub_sectors;
   if (result.roles.count > 0) json["pitch_deg"] = 360.0 / result.roles.count;
   json["most_engagement_deg"] = result.most_engagement_deg;
+  if (result.most_free_mm > 0.0) json["most_free_mm"] = result.most_free_mm;
   if (!result.blank.empty()) json["blank"] = {{"file", "blank.stl"}, {"from", result.blank}};
   if (!result.lacking.empty()) json["lacking"] = lacking_json(result.lacking);
   if (!result.roles.debris.empty()) json["left_out"] = result.roles.debris;

@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
+#include <string>
 #include <utility>
 
+#include "flank/base/atomic_file.h"
 #include "flank/base/sha256.h"
 #include "flank/error.h"
 #include "flank/io/text/json_input.h"
@@ -19,7 +23,7 @@
 #include "flank/wheel/point/axis_rod.h"
 #include "flank/wheel/point/floor_passes.h"
 #include "flank/wheel/point/pass_strips.h"
-#include "flank/wheel/rough/channel_section.h"
+#include "flank/wheel/rough/bands.h"
 #include "flank/wheel/rough/clear_channel.h"
 
 namespace flank::internal {
@@ -30,11 +34,11 @@ constexpr double kChordShare = 0.05;  ///< of that, by which the path may leave 
 constexpr double kWidthShare =
     0.2;  ///< of a channel's width round the axis, that the tip's radius takes: channels run aslant
 constexpr double kTaperDeg = 5.0;
-constexpr double kLayerShare = 1.0;  ///< of the tip's radius
-constexpr double kApartShare = 1.0;
-constexpr double kSmallestGain = 1.2;  ///< a tool that is no larger is not worth a change
-constexpr double kGuardShare = 0.3;    ///< of what is left, by which it is proved to keep off
-constexpr double kSlotDeg = 180.0;     ///< engagement in a slot
+constexpr double kSmallestGain = 1.2;   ///< a tool that is no larger is not worth a change
+constexpr double kGuardShare = 0.3;     ///< of what is left, by which it is proved to keep off
+constexpr double kLayerShare = 3.0;     ///< of the tip's radius, from layer to layer, at most
+constexpr int kMostLayers = 1'000'000;  ///< of one operation, where blades may stand free as far as they like
+constexpr const char* kId = "10";
 
 /// T2, where a tool larger than T1 fits; else T1.
 std::string choose_tool(WheelWork& work) {
@@ -52,30 +56,10 @@ std::string choose_tool(WheelWork& work) {
   return "T2";
 }
 
-/// Where material begins: a turned blank is hardly more than the tips' outline.
-const std::vector<Vec2>& top_of(const WheelWork& work) {
-  return work.job.blank ? work.blank.outline : work.roles.outline;
-}
-
-/// The passes of a layer as far apart as the tip's radius, the first one a slot; the highest layer first.
-std::vector<Strip> slot_layers(const WheelWork& work, const FloorChannel& channel, const Tool& tool,
-                               PointOptions options, double keep) {
-  const double tip = tool.radial.at(0.0).r;
-  const ChannelSection section(channel, top_of(work));
-  options.apart_mm = kApartShare * tip;
-  options.is_air = [&section, tip](const Vec3& center) { return section.is_air(center, tip); };
-  const int layers = 1 + static_cast<int>(std::ceil(section.height() / (kLayerShare * tip)));
-  std::vector<double> heights;
-  for (int layer = 0; layer < layers; ++layer) heights.push_back(keep + layer * kLayerShare * tip);
-  std::vector<std::vector<Strip>> found =
-      layer_passes(channel, tool.radial, options, heights, face_list(work.roles.hub));
-  std::vector<Strip> out;
-  for (int layer = 1; layer <= layers; ++layer)
-    for (Strip& strip : found[static_cast<std::size_t>(layers - layer)]) {
-      strip.layer = layer;
-      out.push_back(std::move(strip));
-    }
-  return out;
+/// From layer to layer, mm.
+double layer_depth(const WheelWork& work, const Tool& tool) {
+  const double depth = kLayerShare * tool.radial.at(0.0).r, free = most_free_mm(work.job, work.roles);
+  return free > 0.0 ? std::min(depth, free) : depth;
 }
 
 std::vector<Strip> cleared(WheelWork& work, const FloorChannel& channel, const Tool& tool) {
@@ -83,46 +67,97 @@ std::vector<Strip> cleared(WheelWork& work, const FloorChannel& channel, const T
   PointOptions options = work.point_options(work.roles.hub);
   options.enter_share = -keep / work.job.tolerance_mm;
   options.shank_mm = shank_radius(tool);
-  if (work.job.most_engagement_deg >= kSlotDeg) return slot_layers(work, channel, tool, options, keep);
   return clear_channel(channel, tool.radial, options,
                        {.keep_mm = keep,
                         .most_engagement_rad = work.job.most_engagement_deg * std::numbers::pi / 180.0,
+                        .layer_mm = layer_depth(work, tool),
                         .face = face_list(work.roles.hub),
                         .outline = work.blank.outline});
 }
 
+/// All layers of all channels of a sector, a channel after the other.
 Path rough_path(WheelWork& work, const Tool& tool) {
   Path out;
   for (const SectorChannel& one : work.sector.channels)
     for (const Strip& strip : cleared(work, floor_channel(work, one), tool))
       out.strips.push_back(thinned(strip, tool.radial.axis_length(), kChordShare * kAllowanceMm));
-  const Turns turns = work.job.most_engagement_deg >= kSlotDeg ? Turns::kHeld : Turns::kAny;
-  return guarded(work, out, tool, -kGuardShare * kAllowanceMm - (work.equal() ? 0.0 : work.difference_mm), turns);
+  return guarded(work, out, tool, -kGuardShare * kAllowanceMm - (work.equal() ? 0.0 : work.difference_mm), Turns::kAny);
+}
+
+/// Planning takes minutes: what was found lies in a folder of its own, and is taken from there where the same is asked again.
+Path known_rough_path(WheelWork& work, const Tool& tool, const std::string& decides) {
+  namespace fs = std::filesystem;
+  const fs::path folder = in_folder(work, "fits/rough");
+  const std::string mark = (folder / "key.txt").string(), file = (folder / "path.json").string(),
+                    key = sha256(work.part.sha256 + work.program + decides);
+  if (!fs::exists(mark) || !fs::exists(file) || read_file(mark) != key) {
+    const Path path = rough_path(work, tool);
+    if (path.strips.empty()) throw InputError("no layer has room between the blades");
+    fs::create_directories(folder);
+    write_path(path, file);
+    write_file(mark, key);
+  }
+  // As a run that goes on from here has it.
+  return read_path(file);
+}
+
+/// "10", or of several "10.1", "10.2" and so on, in the order of their names.
+std::string id_of(std::size_t band, std::size_t bands) {
+  if (bands == 1) return kId;
+  return fmt::format("{}.{:0{}}", kId, band + 1, std::to_string(bands).size());
+}
+
+std::vector<WheelOperation> perform_bands(WheelWork& work, const WheelOperation& like, const Tool& tool,
+                                          const std::string& decides) {
+  const auto begun = std::chrono::steady_clock::now();
+  const double depth = layer_depth(work, tool), free = most_free_mm(work.job, work.roles);
+  const Path path = known_rough_path(work, tool, decides);
+  const std::vector<Path> bands =
+      bands_of(path, free > 0.0 ? std::max(1, static_cast<int>(free / depth)) : kMostLayers);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  std::vector<WheelOperation> out;
+  for (std::size_t k = 0; k < bands.size(); ++k) {
+    WheelOperation one = like;
+    one.id = id_of(k, bands.size());
+    one = perform(work, one, decides, [&] {
+      return judged_path(work, work.roles.hub, bands[k], work.job.least_coverage, Care::kDraft, like.tool);
+    });
+    // Roughing finishes nothing. Its verdict is that of its simulation in the whole blank (judge_roughing).
+    if (one.done) one.pass = true, one.problem.clear();
+    if (k == 0) one.seconds += seconds;
+    out.push_back(std::move(one));
+  }
+  return out;
 }
 
 }  // namespace
 
-WheelOperation rough_operation(WheelWork& work) {
-  WheelOperation operation{.id = "10", .kind = "rough", .folder = "", .faces = work.roles.hub};
+double most_free_mm(const WheelRequest& job, const WheelRoles& roles) {
+  double thinnest = 0.0;
+  for (const WheelBlade& blade : roles.blades)
+    if (blade.thickness_mm > 0.0 && (thinnest == 0.0 || blade.thickness_mm < thinnest)) thinnest = blade.thickness_mm;
+  return job.balance * thinnest;
+}
+
+std::vector<WheelOperation> rough_operations(WheelWork& work) {
+  WheelOperation operation{.id = kId, .kind = "rough", .folder = "", .faces = work.roles.hub};
   if (!work.tool || work.roles.outline.empty()) {
     operation.problem = work.tool ? "the tips of the blades are not known, so the blank has no outline"
                                   : "no tool: none was found for the sides of the blades";
-    return operation;
+    return {operation};
   }
   operation.tool = choose_tool(work);
   operation.copies = work.sector.copies;
   const Tool tool = operation.tool == "T2" ? *work.rough_tool : *work.tool;
-  std::string decides = tool_to_json(tool) + fmt::format("{} {} {}", work.job.tolerance_mm, work.difference_mm,
-                                                         work.job.most_engagement_deg);
+  std::string decides = tool_to_json(tool) + fmt::format("{} {} {} {}", work.job.tolerance_mm, work.difference_mm,
+                                                         work.job.most_engagement_deg, work.job.balance);
   if (work.job.blank) decides += sha256(read_file(*work.job.blank));
-  operation = perform(work, operation, decides, [&] {
-    Path path = rough_path(work, tool);
-    if (path.strips.empty()) throw InputError("no layer has room between the blades");
-    return judged_path(work, work.roles.hub, std::move(path), work.job.least_coverage, Care::kDraft, operation.tool);
-  });
-  // Roughing finishes nothing. Its verdict is that of its simulation in the whole blank (judge_roughing).
-  if (operation.done) operation.pass = true, operation.problem.clear();
-  return operation;
+  try {
+    return perform_bands(work, operation, tool, decides);
+  } catch (const Error& error) {
+    operation.problem = error.what();
+    return {operation};
+  }
 }
 
 }  // namespace flank::internal

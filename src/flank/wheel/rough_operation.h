@@ -1,13 +1,19 @@
 /// Roughing of the channels.
 #pragma once
 
+#include <vector>
+
 #include "flank/wheel/wheel_work.h"
 
 namespace flank::internal {
 
+/// How far roughing may let a blade stand free on one side alone, mm: thicknesses of the thinnest one; 0: of no blade the thickness is known.
+[[nodiscard]] double most_free_mm(const WheelRequest& job, const WheelRoles& roles);
+
 /// Layers over the hub, from the tips' outline down, in all channels of one sector, with a larger tool where one fits between the blades.
-/// It keeps off the part by an allowance, and by how far the blades differ; the other sectors are turned copies. A layer is as deep
-/// as the tip's radius, and its first pass cuts a slot: the judge tells the engagement (pipeline/folder/judge_roughing.h).
-[[nodiscard]] WheelOperation rough_operation(WheelWork& work);
+/// They keep off the part by an allowance, and by how far the blades differ; the other sectors are turned copies. An operation is as many
+/// layers as a blade may stand free: it is run in all sectors before the next one. What is engaged and what stands free is the
+/// judge's to tell (pipeline/folder/judge_roughing.h).
+[[nodiscard]] std::vector<WheelOperation> rough_operations(WheelWork& work);
 
 }  // namespace flank::internal

@@ -85,6 +85,7 @@ WheelBlank make_blank(const WheelRequest& job, const Part& part, WheelResult& re
   write_mesh((fs::path(job.folder) / "blank.stl").string(), blank.body);
   result.blank = job.blank.value_or("turned");
   result.most_engagement_deg = job.most_engagement_deg;
+  result.most_free_mm = most_free_mm(job, result.roles);
   return blank;
 }
 
@@ -125,7 +126,8 @@ WheelResult run_wheel(const WheelRequest& job, const Progress& progress) {
   if (job.edges && edges) run(edge_operation(work));
   if (std::optional<WheelOperation> operation = rest_operation(work)) run(std::move(*operation));
   progress.step("rough", 0.6);
-  if (job.rough) run(rough_operation(work));
+  if (job.rough)
+    for (WheelOperation& operation : rough_operations(work)) run(std::move(operation));
   progress.step("verify", 0.8);
   work.forget();
   give_shanks(work, result.operations, result.notes);

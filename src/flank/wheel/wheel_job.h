@@ -55,7 +55,7 @@ struct WheelResult {
   std::vector<RestPlace> rest;        ///< largest first
   std::vector<MissingBlade> lacking;  ///< what the wheel has and the part has not
   std::string blank;                  ///< "turned", or the file that it is from; empty: nothing is roughed
-  double most_engagement_deg = 180.0;
+  double most_engagement_deg = 90.0, most_free_mm = 0.0;  ///< as in WheelPlan
   std::optional<JudgedRoughing> roughing;
   std::optional<Result> whole;  ///< all copies of all finishing operations, judged on all flow faces
   [[nodiscard]] Acceptance acceptance() const;

@@ -181,23 +181,5 @@ TEST(PointPasses, SidesThatDoNotStandOnTheFloorHaveNone) {
   EXPECT_TRUE(point_passes(asked, channel.radial, {}, "F1", "F2", "F3").empty());
 }
 
-TEST(LayerPasses, EveryLayerRunsAtItsHeightAndKeepsOffTheWalls) {
-  const Channel channel;
-  PointOptions options;
-  options.tolerance_mm = kTolerance, options.apart_mm = kTip, options.enter_share = -0.3 / kTolerance;
-  const std::vector<double> heights{0.3, 1.8};
-  const std::vector<std::vector<Strip>> layers = layer_passes(channel.asked(), channel.radial, options, heights, "F1");
-  ASSERT_EQ(layers.size(), heights.size());
-  for (std::size_t k = 0; k < heights.size(); ++k) {
-    ASSERT_GT(layers[k].size(), 2U);
-    for (const Strip& strip : layers[k])
-      for (const Pose& pose : strip.poses) {
-        EXPECT_NEAR(pose.tip.z(), kTip + heights[k], 0.2 * kTolerance);
-        const Footpoint wall = nearest_foot(channel.asked().walls, pose.at(3.0), 100.0);
-        EXPECT_GT(std::abs(wall.distance), kTip + 0.29);
-      }
-  }
-}
-
 }  // namespace
 }  // namespace flank::internal

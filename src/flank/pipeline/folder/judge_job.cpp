@@ -240,7 +240,9 @@ VerifyReport judge_job(const Setup& setup, const JudgeRequest& request, const To
   report.reach_radius_mm = radius;
   report.allowance_mm = setup.allowance_mm;
   const double wanted = request.least_whole.value_or(request.least_coverage);
-  if (reach && report.coverage < wanted) say_what_is_left(setup, *reach, kReachSpacings * usual, tool, wanted, report);
+  // Of a draft nobody asks.
+  if (reach && depth == DepthProof::kProved && report.coverage < wanted)
+    say_what_is_left(setup, *reach, kReachSpacings * usual, tool, wanted, report);
   if (request.most_turn_deg > 0.0) report.turn = turn_of(tool, path, judged);
   report.buried = std::move(buried);
   report.sheet_sides = setup.sides;

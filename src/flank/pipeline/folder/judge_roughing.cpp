@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "flank/error.h"
 #include "flank/io/mesh/read_stl.h"
 #include "flank/io/text/json_input.h"
 #include "flank/manifest/result_folder.h"
 #include "flank/path_file.h"
+#include "flank/pipeline/folder/free_height.h"
 #include "flank/pipeline/folder/judge_job.h"
 #include "flank/setup/clearance_scene.h"
 #include "flank/setup/tool_body.h"
@@ -19,8 +21,6 @@
 namespace flank::internal {
 namespace {
 
-constexpr double kSlotDeg = 180.0;  ///< engagement in a slot
-
 /// The first few of them, and how many more there are.
 std::string some_of(const std::vector<std::string>& faces) {
   constexpr std::size_t kShown = 6;
@@ -29,27 +29,49 @@ std::string some_of(const std::vector<std::string>& faces) {
   return faces.size() > kShown ? fmt::format("{} and {} more", text, faces.size() - kShown) : text;
 }
 
+void add_strips(const Path& more, Path& to) {
+  to.strips.insert(to.strips.end(), more.strips.begin(), more.strips.end());
+}
+
+/// The one tool of all steps that rough.
+Tool tool_of(const std::vector<const WheelStep*>& steps) {
+  const auto file_of = [](const WheelStep& step) {
+    return (std::filesystem::path(step.folder) / "tool.json").string();
+  };
+  for (const WheelStep* step : steps) {
+    const ResultFolder folder(step->folder, ResultFolder::Use::kRead);
+    folder.require_whole({"verify.json", "view.json", "motion.json"});
+    if (read_file(file_of(*step)) != read_file(file_of(*steps.front())))
+      throw InputError(step->folder + ": its tool is not that of " + steps.front()->folder + "; plan the wheel again");
+  }
+  return read_tool(file_of(*steps.front()));
+}
+
 }  // namespace
 
 std::optional<JudgedRoughing> judge_roughing(const WheelPlan& plan, const Setup& setup) {
-  const WheelStep* step = plan.roughing();
-  if (step == nullptr) return {};
-  const Path sector = read_path((std::filesystem::path(step->folder) / "path.json").string());
-  return judge_roughing(plan, setup, sector, all_copies(sector, plan, step->copies));
+  std::vector<Path> steps;
+  Path all;
+  for (const WheelStep* step : plan.roughing()) {
+    steps.push_back(read_path((std::filesystem::path(step->folder) / "path.json").string()));
+    add_strips(all_copies(steps.back(), plan, step->copies), all);
+  }
+  return judge_roughing(plan, setup, steps, all);
 }
 
-std::optional<JudgedRoughing> judge_roughing(const WheelPlan& plan, const Setup& setup, const Path& sector,
+std::optional<JudgedRoughing> judge_roughing(const WheelPlan& plan, const Setup& setup, const std::vector<Path>& steps,
                                              const Path& all) {
-  const WheelStep* step = plan.roughing();
-  if (step == nullptr) return {};
-  const ResultFolder folder(step->folder, ResultFolder::Use::kRead);
-  folder.require_whole({"verify.json", "view.json", "motion.json"});
+  if (steps.empty()) return {};
   JudgedRoughing out;
+  out.tool = tool_of(plan.roughing());
   out.most_engagement_deg = plan.most_engagement_deg;
-  out.tool = read_tool((std::filesystem::path(step->folder) / "tool.json").string());
   out.cuts = judge_cuts(setup, out.tool, all);
-  std::vector<std::string> told;
+  out.most_free_mm = plan.most_free_mm;
+  out.free_mm = free_height(plan, setup, steps, out.tool.radial.at(0.0).r);
   // One sector stands for its copies.
+  Path sector;
+  for (const Path& step : steps) add_strips(step, sector);
+  std::vector<std::string> told;
   measure_bodies(make_clearance_scene(setup, {}, has_body(out.tool), told), out.tool, sector, out.cuts);
   if (!plan.blank.empty())
     out.stock = rough_stock(out.tool, sector, read_stl(plan.blank, read_file(plan.blank)), plan.most_engagement_deg);
@@ -66,6 +88,8 @@ std::string roughing_text(const JudgedRoughing& roughing) {
         "; engagement up to {:.1f} degrees (+-{:.1f}, pass {}), {:.0f} of {:.0f} mm3 removed in one sector along "
         "{:.0f} mm of path",
         kind.engagement_deg, stock.resolution_deg, kind.strip + 1, kind.volume_mm3, stock.before_mm3, kind.way_mm);
+  if (roughing.free_mm > 0.0)
+    text += fmt::format("; a blade stands free on one side by up to {:.2f} mm", roughing.free_mm);
   return text;
 }
 
@@ -83,9 +107,13 @@ void accept_steps(const WheelPlan& plan, const std::optional<JudgedRoughing>& ro
   JudgeRequest request;
   request.least_coverage = 0.0;
   Acceptance found = accept(roughing->tool, roughing->cuts, request);
-  // Shank and holder are a caution of the whole already. Where slots are allowed, so is all that a tool engages as it goes into the blank.
-  const double most = roughing->most_engagement_deg < kSlotDeg ? roughing->most_engagement_deg : 2.0 * kSlotDeg;
-  accept_stock(roughing->stock, most, roughing->cuts.tolerance_mm, found);
+  // Shank and holder are a caution of the whole already.
+  accept_stock(roughing->stock, roughing->most_engagement_deg, roughing->cuts.tolerance_mm, found);
+  if (roughing->most_free_mm > 0.0 && roughing->free_mm > roughing->most_free_mm + roughing->cuts.tolerance_mm)
+    add_reason(found, Figure::kStock,
+               fmt::format("a blade stands free on one side by {:.2f} mm > {:.2f} mm, while the channel on its other "
+                           "side is not cut",
+                           roughing->free_mm, roughing->most_free_mm));
   for (const Shortfall& reason : found.reasons)
     acceptance.reasons.push_back({reason.figure, "roughing: " + reason.text});
 }

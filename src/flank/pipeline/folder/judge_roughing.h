@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "flank/judge.h"
 #include "flank/pipeline/folder/wheel_plan.h"
@@ -17,14 +18,16 @@ struct JudgedRoughing {
   VerifyReport cuts;  ///< of all copies, on all judged faces: none of them may be cut
   StockReport stock;  ///< of one sector, in the whole blank: a copy meets no more material; kind "rough"
   double most_engagement_deg = 180.0;
+  double free_mm = 0.0, most_free_mm = 0.0;  ///< of a blade on one side alone; 0: no limit
 };
 
-/// Of the step of the plan that roughs; none where none is done, or none is planned. Throws InputError for files of the folder that are
-/// missing, damaged or not those that the step wrote.
+/// Of the steps of the plan that rough; none where none is done, or none is planned. Throws InputError for files of the folder that are
+/// missing, damaged or not those that a step wrote.
 [[nodiscard]] std::optional<JudgedRoughing> judge_roughing(const WheelPlan& plan, const Setup& setup);
-/// The same of other paths with the step's tool, as a program runs them: `sector` in the whole blank, `all` copies on the part.
+/// The same of other paths with the steps' tool, as a program runs them: those of one sector in the whole blank, one for each step, and `all`
+/// copies on the part.
 [[nodiscard]] std::optional<JudgedRoughing> judge_roughing(const WheelPlan& plan, const Setup& setup,
-                                                           const Path& sector, const Path& all);
+                                                           const std::vector<Path>& steps, const Path& all);
 
 /// One line for people.
 [[nodiscard]] std::string roughing_text(const JudgedRoughing& roughing);

@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 /// What the operations of a program do, in the part's frame, with all copies.
 struct Runs {
   Path finish, rough;
-  Path rough_sector;  ///< the first copy of roughing
+  std::vector<Path> rough_steps;  ///< the first copy of each operation that roughs
 };
 
 std::string file_in(const std::string& folder, const char* name) { return (fs::path(folder) / name).string(); }
@@ -69,7 +69,7 @@ Runs run_all(const VerifyJob& request, ProgramQuestion question, const Setup& se
     const std::string before = heading(of);
     add_under(before, one.acceptance, all.acceptance);
     for (const std::string& note : one.notes) all.notes.push_back(before + note);
-    if (rough && of.copy == 1) append(run.plot.path, runs.rough_sector);
+    if (rough && of.copy == 1) runs.rough_steps.push_back(run.plot.path);
     append(run.plot.path, rough ? runs.rough : runs.finish);
   }
   return runs;
@@ -105,7 +105,7 @@ Verification judge_wheel_program(const VerifyJob& request, const WheelPlan& plan
   measure_bodies(scene, tool, runs.finish, all.report);
   add_caveats(all.report, all.notes);
   prepend(accept(tool, all.report, question.judge), all.acceptance);
-  const std::optional<JudgedRoughing> roughing = judge_roughing(plan, setup, runs.rough_sector, runs.rough);
+  const std::optional<JudgedRoughing> roughing = judge_roughing(plan, setup, runs.rough_steps, runs.rough);
   accept_steps(plan, roughing, all.acceptance);
   if (roughing) all.notes.push_back(roughing_text(*roughing));
   return all;

@@ -78,10 +78,11 @@ std::set<int> faces_named(const Part& part, const std::vector<std::string>& name
 
 }  // namespace
 
-const WheelStep* WheelPlan::roughing() const {
-  const auto found =
-      std::find_if(steps.begin(), steps.end(), [](const WheelStep& step) { return step.done && step.kind == "rough"; });
-  return found != steps.end() ? &*found : nullptr;
+std::vector<const WheelStep*> WheelPlan::roughing() const {
+  std::vector<const WheelStep*> out;
+  for (const WheelStep& step : steps)
+    if (step.done && step.kind == "rough") out.push_back(&step);
+  return out;
 }
 
 std::optional<WheelPlan> read_wheel_plan(const std::string& folder) {
@@ -102,6 +103,7 @@ std::optional<WheelPlan> read_wheel_plan(const std::string& folder) {
   plan.whole = truth_of(json, raw, "whole");
   if (json.has("blank")) plan.blank = inside(folder, json.member("blank").member("file"));
   plan.most_engagement_deg = json.member("most_engagement_deg").positive();
+  if (json.has("most_free_mm")) plan.most_free_mm = json.member("most_free_mm").positive();
   if (json.has("lacking")) {
     const JsonInput lacking = json.member("lacking");
     for (std::size_t k = 0; k < lacking.size(); ++k) plan.lacking.push_back(lacking_of(lacking.element(k)));

@@ -28,15 +28,16 @@ struct LackingBlade {
 
 struct WheelPlan {
   CopyAxis axis;
-  std::optional<Vec3> up;                           ///< unit vector along the axis: to the spindle; none in older files
-  int sectors = 1;                                  ///< in a whole turn
-  bool whole = true;                                ///< the part has all of them
-  std::string blank;                                ///< file of the blank, beside the working folder; empty: none
-  double most_engagement_deg = 180.0;               ///< while roughing; 180: slots are allowed
-  std::vector<LackingBlade> lacking;                ///< of a piece of a wheel
-  std::vector<std::string> left_out;                ///< faces of solids that are no part of the wheel
-  std::vector<WheelStep> steps;                     ///< in the order of machining
-  [[nodiscard]] const WheelStep* roughing() const;  ///< that is done; null: none
+  std::optional<Vec3> up;             ///< unit vector along the axis: to the spindle; none in older files
+  int sectors = 1;                    ///< in a whole turn
+  bool whole = true;                  ///< the part has all of them
+  std::string blank;                  ///< file of the blank, beside the working folder; empty: none
+  double most_engagement_deg = 90.0;  ///< while roughing
+  double most_free_mm = 0.0;          ///< while roughing, of a blade on one side alone; 0: no limit
+  std::vector<LackingBlade> lacking;  ///< of a piece of a wheel
+  std::vector<std::string> left_out;  ///< faces of solids that are no part of the wheel
+  std::vector<WheelStep> steps;       ///< in the order of machining
+  [[nodiscard]] std::vector<const WheelStep*> roughing() const;  ///< those that are done
 };
 
 /// None where the folder has no plan.json. Throws InputError, naming file and key, for one that cannot be used.

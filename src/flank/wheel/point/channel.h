@@ -46,8 +46,6 @@ struct PointOptions {
   double apart_mm = 0.0;   ///< between passes; 0: as the scallop says
   TiltCone held = {};      ///< the axes that there may be
   double shank_mm = 0.0;   ///< radius of what stands above the flank, to beyond the wheel
-  /// Whether the tip at a place of its centre is in the air, and no pass is needed there; empty: nowhere.
-  std::function<bool(const Vec3&)> is_air = {};
   /// Whether a place of a wall is finished already; empty: none is.
   std::function<bool(const Vec3&)> is_finished = {};
   /// What the flank has left at a place of a face's border, which a pass along it goes on smoothly from; empty: nothing.

@@ -55,7 +55,7 @@ Vec3 ChannelPoses::axis(std::size_t row, double share) const {
 std::optional<Pose> ChannelPoses::at(std::size_t row, double share) const {
   if (!rows()[row].open) return {};
   const std::optional<TipRoom::Rest> rest = channel_.rest(rows()[row], share);
-  if (!rest || (options_.is_air && options_.is_air(rest->center))) return {};
+  if (!rest) return {};
   // Beside a blade the axis of a place nearer to the middle may have room where its own has none.
   for (int k = 0; k < kAxes; ++k) {
     const Pose pose{rest->center, axis(row, std::lerp(std::clamp(share, 0.0, 1.0), 0.5, k / (kAxes - 1.0)))};

@@ -130,27 +130,6 @@ std::vector<Strip> point_passes(const FloorChannel& channel, const RadialFunctio
   return out;
 }
 
-std::vector<std::vector<Strip>> layer_passes(const FloorChannel& channel, const RadialFunction& radial,
-                                             const PointOptions& options, const std::vector<double>& heights_mm,
-                                             const std::string& floor) {
-  std::vector<std::vector<Strip>> out;
-  std::optional<AxisField> below;
-  const ChannelLines lines(channel);
-  for (const double height : heights_mm) {
-    PointOptions here = options;
-    here.height_mm = height;
-    const TipRoom room(channel, radial, here);
-    // Rows and columns of the field are the same at every height: they follow from the sides' lines on the floor.
-    const ChannelRows rows(channel, lines, room, here);
-    out.emplace_back();
-    if (rows.rows().size() < 3) continue;
-    const ChannelPoses poses(rows, room, here, below ? &*below : nullptr);
-    add_strips(floor_rows(poses), room, radial, here, "rough", floor, out.back());
-    below = poses.field();
-  }
-  return out;
-}
-
 double channel_width(const FloorChannel& channel, const RadialFunction& radial) {
   const TipRoom room(channel, radial, {});
   const ChannelLines lines(channel);

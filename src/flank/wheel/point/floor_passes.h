@@ -18,13 +18,6 @@ namespace flank::internal {
                                               const PointOptions& options, const std::string& floor,
                                               const std::string& first, const std::string& second);
 
-/// Strips of kind "rough" of layers, so high over the floor, the lowest first; `options.apart_mm` from each other, from side to side. Where
-/// the direction of the layer below has room, a layer takes it.
-[[nodiscard]] std::vector<std::vector<Strip>> layer_passes(const FloorChannel& channel, const RadialFunction& radial,
-                                                           const PointOptions& options,
-                                                           const std::vector<double>& heights_mm,
-                                                           const std::string& floor);
-
 /// The narrowest place of a channel's floor between the sides' lines, mm, but for a tenth of its length; 0 where they do not stand on it.
 [[nodiscard]] double channel_width(const FloorChannel& channel, const RadialFunction& radial);
 

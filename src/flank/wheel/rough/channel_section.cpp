@@ -27,25 +27,6 @@ ChannelSection::ChannelSection(const FloorChannel& channel, const std::vector<Ve
     : axis_(channel.axis), outline_(outline) {
   const FloorMap map(channel.floor, channel.axis);
   for (double way = 0.0; way <= map.length(); way += kMapStepMm) hub_.push_back(flat(map.place(way, 0.0)));
-  polygon_ = hub_;
-  if (hub_.empty() || outline_.empty()) return;
-  const bool same = (hub_.back() - outline_.front()).norm() < (hub_.back() - outline_.back()).norm();
-  polygon_.insert(polygon_.end(), outline_.begin(), outline_.end());
-  if (!same) std::reverse(polygon_.end() - static_cast<std::ptrdiff_t>(outline_.size()), polygon_.end());
-}
-
-bool ChannelSection::is_air(const Vec3& center, double radius) const {
-  const Vec2 p = flat(center);
-  bool inside = false;
-  for (std::size_t k = 0; k < polygon_.size(); ++k) {
-    const Vec2 &a = polygon_[k], &b = polygon_[(k + 1) % polygon_.size()];
-    if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
-      inside = !inside;
-  }
-  if (inside) return false;
-  std::vector<Vec2> closed = polygon_;
-  closed.push_back(polygon_.front());
-  return distance_to(closed, p) > radius;
 }
 
 double ChannelSection::height() const {

@@ -11,15 +11,13 @@ namespace flank::internal {
 class ChannelSection {
  public:
   ChannelSection(const FloorChannel& channel, const std::vector<Vec2>& outline);
-  /// Whether a ball is above the outline, or before or behind the hub.
-  [[nodiscard]] bool is_air(const Vec3& center, double radius) const;
   /// Of the outline over the hub, mm, at most.
   [[nodiscard]] double height() const;
 
  private:
   [[nodiscard]] Vec2 flat(const Vec3& p) const { return {axis_.along(p), axis_.radius(p)}; }
   WheelAxis axis_;
-  std::vector<Vec2> outline_, hub_, polygon_;
+  std::vector<Vec2> outline_, hub_;
 };
 
 /// Of a place to a line in a section, mm.

@@ -12,7 +12,6 @@
 namespace flank::internal {
 namespace {
 
-constexpr double kLayerShare = 3.0;   ///< of the tip's radius, from layer to layer
 constexpr double kCellShare = 0.2;    ///< of it, of the planner's stock
 constexpr double kMostCells = 8e6;    ///< of that
 constexpr double kSpareShare = 0.95;  ///< of the engagement that is allowed: the stock is a grid
@@ -24,13 +23,13 @@ using Layer = std::vector<ChannelLayer>;
 std::vector<Layer> layers_over(const FloorChannel& channel, const RadialFunction& radial, const PointOptions& options,
                                const ClearingRequest& request, const Cutter& cutter) {
   const ChannelLines lines(channel);
-  const double apart = kLayerShare * cutter.tip();
-  const int count = 1 + static_cast<int>(std::ceil(ChannelSection(channel, request.outline).height() / apart));
+  const int count =
+      1 + static_cast<int>(std::ceil(ChannelSection(channel, request.outline).height() / request.layer_mm));
   std::vector<Layer> out;
   std::optional<AxisField> below;
   for (int layer = 0; layer < count; ++layer) {
     PointOptions here = options;
-    here.height_mm = request.keep_mm + layer * apart;
+    here.height_mm = request.keep_mm + layer * request.layer_mm;
     const TipRoom room(channel, radial, here);
     const ChannelRows rows(channel, lines, room, here);
     out.emplace_back();
@@ -74,7 +73,7 @@ std::vector<Strip> clear_channel(const FloorChannel& channel, const RadialFuncti
   for (std::size_t k = layers.size(); k-- > 0;)
     for (const ChannelLayer& stretch : layers[k])
       for (Strip& strip : layer_cycles(stretch, cutter, limits, request.face, *stock)) {
-        strip.layer = static_cast<int>(layers.size() - k);
+        strip.layer = static_cast<int>(k) + 1;
         out.push_back(std::move(strip));
       }
   return out;
