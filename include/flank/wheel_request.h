@@ -13,10 +13,12 @@ struct WheelRequest {
   std::string folder;               ///< for the results; operations that are finished in it are not done again
   std::optional<std::string> unit;  ///< of a mesh: mm, cm, m or in
   double tolerance_mm = 0.05;
-  double least_coverage = 0.97;     ///< share of what is open of the flow surface, within tolerance
-  std::string effort = "quick";     ///< of the fits: quick, normal or thorough
-  std::optional<std::string> tool;  ///< a tool.json, a family or "free"
-  std::optional<double> sample_mm;  ///< judge by samples alone; their spacing in the fits
+  double least_coverage = 0.97;       ///< share of what is open of the flow surface, within tolerance
+  std::string effort = "quick";       ///< of the fits: quick, normal or thorough
+  std::optional<std::string> tool;    ///< a tool.json, a family or "free"
+  std::optional<std::string> holder;  ///< "z:r,z:r,...", z over its own face, or a file; none: not checked
+  int most_tools = 2;                 ///< 1: the one that finishes roughs, too; 2: a larger one roughs where one fits
+  std::optional<double> sample_mm;    ///< judge by samples alone; their spacing in the fits
   bool rough = true, edges = true;
   std::optional<std::string> blank;   ///< a closed body, CAD or mesh; none: turned about the part
   double allowance_mm = 0.5;          ///< of a turned blank, > 0

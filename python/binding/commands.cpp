@@ -60,6 +60,8 @@ void bind_wheel(py::module_& module) {
       .def_readwrite("coverage", &WheelRequest::least_coverage)
       .def_readwrite("effort", &WheelRequest::effort)
       .def_readwrite("tool", &WheelRequest::tool)
+      .def_readwrite("holder", &WheelRequest::holder)
+      .def_readwrite("most_tools", &WheelRequest::most_tools)
       .def_readwrite("sample_mm", &WheelRequest::sample_mm)
       .def_readwrite("rough", &WheelRequest::rough)
       .def_readwrite("blank", &WheelRequest::blank)

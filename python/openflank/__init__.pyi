@@ -745,6 +745,8 @@ def wheel(
     coverage: float = 0.97,
     effort: str = 'quick',
     sample_mm: float | None = None,
+    holder: _File | None = None,
+    most_tools: int = 2,
     rough: bool = True,
     edges: bool = True,
     blank: _File | None = None,
@@ -770,6 +772,11 @@ def wheel(
         How long each fit searches: "quick", "normal" or "thorough".
     sample_mm
         Spacing of a fast check without the proof; None: samples and a proof.
+    holder
+        Outline of the holder as "z:r,z:r,...", height above its face and radius, mm, or a file of such pairs: shanks are
+        as long as it needs. None: not checked.
+    most_tools
+        2: a larger tool roughs where one fits between the blades. 1: the tool that finishes roughs, too.
     rough, edges
         False leaves out the roughing, or the edges.
     blank, allowance_mm

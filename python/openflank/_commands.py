@@ -48,8 +48,8 @@ def machine(name):
     return json.loads(_core.machine_json(os.fspath(name)))
 
 
-def wheel(part, folder, *, tolerance_mm=0.05, unit=None, tool=None, coverage=0.97, effort="quick", sample_mm=None, rough=True,
-          edges=True, blank=None, allowance_mm=0.5, most_engagement_deg=90.0, balance=8.0, most_tilt_deg=100.0, hub=None,
+def wheel(part, folder, *, tolerance_mm=0.05, unit=None, tool=None, coverage=0.97, effort="quick", sample_mm=None,
+          holder=None, most_tools=2, rough=True, edges=True, blank=None, allowance_mm=0.5, most_engagement_deg=90.0, balance=8.0, most_tilt_deg=100.0, hub=None,
           blades=(), splitters=(), count=None, progress=None):
     """Mills a whole wheel, as flank wheel does: plan.json as a dict (docs/schema/wheel.md). The results lie in the folder.
 
@@ -63,6 +63,11 @@ def wheel(part, folder, *, tolerance_mm=0.05, unit=None, tool=None, coverage=0.9
         How long each fit searches: "quick", "normal" or "thorough".
     sample_mm
         Spacing of a fast check without the proof; None: samples and a proof.
+    holder
+        Outline of the holder as "z:r,z:r,...", height above its face and radius, mm, or a file of such pairs: shanks are
+        as long as it needs. None: not checked.
+    most_tools
+        2: a larger tool roughs where one fits between the blades. 1: the tool that finishes roughs, too.
     rough, edges
         False leaves out the roughing, or the edges.
     blank, allowance_mm
@@ -83,7 +88,7 @@ def wheel(part, folder, *, tolerance_mm=0.05, unit=None, tool=None, coverage=0.9
     request = _core.WheelRequest()
     given = {"part": os.fspath(part), "folder": os.fspath(folder), "tolerance_mm": tolerance_mm, "unit": unit,
              "tool": None if tool is None else os.fspath(tool), "coverage": coverage, "effort": effort, "sample_mm": sample_mm,
-             "rough": rough, "edges": edges,
+             "holder": None if holder is None else os.fspath(holder), "most_tools": most_tools, "rough": rough, "edges": edges,
              "blank": None if blank is None else os.fspath(blank), "allowance_mm": allowance_mm,
              "most_engagement_deg": most_engagement_deg, "balance": balance, "most_tilt_deg": most_tilt_deg,
              "hub": hub, "blades": list(blades), "splitters": list(splitters), "count": count}

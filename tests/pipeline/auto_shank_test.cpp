@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <utility>
 
 #include "flank/error.h"
 
@@ -38,16 +39,22 @@ class ChosenClearShank : public ::testing::Test {
     return scene;
   }
   static ObstacleRequest chosen(double away, double slenderest, ObstacleRequest request = {}) {
-    Tool flank;
-    flank.radial = RadialFunction(ToolFamily::kCylinder, 20.0, Eigen::VectorXd::Constant(1, 5.0));
-    Path path;
-    path.strips.push_back({});
-    path.strips[0].poses = {{Vec3(0, 0, 0), Vec3::UnitZ()}, {Vec3(40, 0, 0), Vec3::UnitZ()}};
     Box3 part;
     part.add(Vec3(0, 0, 0));
     part.add(Vec3(40, 30, 40));
-    choose_clear_shank(scene(away), path, part, slenderest, flank, request);
+    choose_clear_shank(scene(away), way(), part, slenderest, flank(), request);
     return request;
+  }
+  static Tool flank() {
+    Tool flank;
+    flank.radial = RadialFunction(ToolFamily::kCylinder, 20.0, Eigen::VectorXd::Constant(1, 5.0));
+    return flank;
+  }
+  static Path way() {
+    Path path;
+    path.strips.push_back({});
+    path.strips[0].poses = {{Vec3(0, 0, 0), Vec3::UnitZ()}, {Vec3(40, 0, 0), Vec3::UnitZ()}};
+    return path;
   }
 };
 
@@ -65,6 +72,24 @@ TEST_F(ChosenClearShank, IsTheThickestThatIsClear) {
 
 TEST_F(ChosenClearShank, StaysAsThickAsTheFlankWhereAThinnerOneWouldBendTooMuch) {
   EXPECT_EQ(chosen(1.0, 4.0).shank_radius_mm, 5.0);
+}
+
+TEST_F(ChosenClearShank, IsAsLongAsItsHolderNeeds) {
+  Box3 part;
+  part.add(Vec3(-20, 0, 0));
+  part.add(Vec3(60, 30, 80));
+  for (const auto& [away, least] : {std::pair(30.0, 20.0), {7.0, 60.0}}) {
+    ObstacleRequest obstacles;
+    obstacles.shank = "given", obstacles.shank_length_mm = 20.0, obstacles.shank_radius_mm = 5.0;
+    Tool tool = flank();
+    lengthen_for_holder(scene(away), way(), part, {{0.0, 10.0}, {30.0, 12.0}}, obstacles, tool);
+    // Beside the wall the holder stands above its end, at 80.
+    EXPECT_GE(obstacles.shank_length_mm.value(), least);
+    EXPECT_LE(obstacles.shank_length_mm.value(), least + 1.0);
+    ASSERT_EQ(tool.holder.size(), 2U);
+    EXPECT_EQ(tool.holder.front(), Vec2(20.0 + *obstacles.shank_length_mm, 10.0));
+    EXPECT_EQ(tool.holder.back(), Vec2(50.0 + *obstacles.shank_length_mm, 12.0));
+  }
 }
 
 /// Plans whose first comes too near with the shank that it has chosen, and whose second ends as `second` does.

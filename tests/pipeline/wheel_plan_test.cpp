@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "flank/base/atomic_file.h"
@@ -10,6 +11,7 @@
 #include "flank/path_file.h"
 #include "flank/pipeline/folder/free_height.h"
 #include "flank/pipeline/folder/judge_roughing.h"
+#include "flank/pipeline/folder/rough_left.h"
 #include "flank/pipeline/program/operation_words.h"
 #include "temporary_folder.h"
 #include "verify/faces.h"
@@ -206,6 +208,32 @@ TEST(FreeHeight, IsHowMuchDeeperAnOperationIsThanTheOneBeforeIt) {
   EXPECT_NEAR(free({layers_at({0.5}), layers_at({3.0})}), 8.5, 1e-6) << "an operation in the air frees nothing";
   plan.steps.pop_back();
   EXPECT_EQ(free({layers_at({0.5})}), 0.0) << "no side is known";
+}
+
+TEST(RoughLeft, IsWhatLiesBetweenTheSurfaceAndThePath) {
+  flank::internal::Setup setup = blade_on_a_hub();
+  setup.targets = {0};
+  setup.part.box.add(Vec3(0.0, 0.0, 0.0)), setup.part.box.add(Vec3(40.0, 9.0, 20.0));
+  Tool tool;
+  tool.radial = RadialFunction(ToolFamily::kCylinder, 12.0, Eigen::VectorXd::Constant(1, 1.0));
+  // Passes half a millimetre apart, whose spheres leave 0.4 mm and a scallop of 0.032; over 30 % of the hub alone, or all of it.
+  for (const double to : {6.0, 20.0}) {
+    Path path;
+    for (double z = 0.0; z <= to; z += 0.5)
+      path.strips.push_back(
+          {1, "rough", "F1", {{Vec3(0.0, 1.4, z), Vec3::UnitY()}, {Vec3(40.0, 1.4, z), Vec3::UnitY()}}});
+    const RoughLeft left = left_by_roughing(setup, tool, path);
+    if (to == 20.0) {
+      // Below a pass, and half way to the next one.
+      EXPECT_GE(left.median_mm, 0.4 - 1e-9);
+      EXPECT_LE(left.median_mm, left.nine_tenths_mm);
+      EXPECT_LE(left.nine_tenths_mm, 1.4 - std::sqrt(1.0 - 0.25 * 0.25) + 1e-9);
+      continue;
+    }
+    // From the last pass to the middle of what is open, and to nine tenths of all: 4 mm and 12 mm on.
+    EXPECT_NEAR(left.median_mm, std::hypot(1.4, 4.0) - 1.0, 0.2);
+    EXPECT_NEAR(left.nine_tenths_mm, std::hypot(1.4, 12.0) - 1.0, 0.2);
+  }
 }
 
 TEST(JudgedRoughing, ABladeThatStandsFreeTooFarIsAReason) {

@@ -3,7 +3,7 @@ import { send } from './api.js';
 import { html } from './dom.js';
 
 /** What a field is called on the page, by its key: the table's names are those of files and scripts. */
-const NAMES = { tool: 'Tool', side: 'Machined side', nc: 'Program', turn_max: 'Sharpest kink', dry: 'Dry run', rough: 'Roughing', edges: 'Edges', sample: 'Fast check at', most_tilt: 'Largest tilt', most_engagement: 'Largest engagement', balance: 'Blades free by' };
+const NAMES = { tool: 'Tool', side: 'Machined side', nc: 'Program', turn_max: 'Sharpest kink', dry: 'Dry run', rough: 'Roughing', edges: 'Edges', sample: 'Fast check at', most_tilt: 'Largest tilt', most_engagement: 'Largest engagement', balance: 'Blades free by', most_tools: 'Most tools' };
 /** What stands between the values of a list; the faces of a blade have commas between them. */
 const BETWEEN = { blades: ';', splitters: ';' };
 const between = ({ key }) => BETWEEN[key] ?? ',';

@@ -88,7 +88,7 @@ const std::vector<std::string>& basic_fields(const std::string& command) {
       {"trochoid", {"tolerance", "tool", "axis_length", "max_engagement", "cut", "entry", "shank_length", "holder"}},
       {"verify", {"tolerance", "nc", "machine", "setup"}},
       {"design", {"tolerance", "tools", "source", "shape", "axis_length", "tool_change"}},
-      {"wheel", {"tolerance", "coverage", "effort", "tool", "rough", "edges", "blank", "sample"}},
+      {"wheel", {"tolerance", "coverage", "effort", "tool", "holder", "rough", "edges", "blank"}},
       {"post", {"machine", "spindle", "feed", "speed", "order", "setup", "tool_length", "dry"}}};
   static const std::vector<std::string> kNone;
   const auto found = kBasic.find(command);

@@ -15,6 +15,8 @@ inline constexpr Accepted kSectors{"expected a number from 1 to 1000",
 inline constexpr Accepted kThicknesses{"expected a number of thicknesses, 1 or more",
                                        [](double x) { return x >= 1.0 && x < 1e300; }};
 
+inline constexpr Accepted kTools{"expected 1 or 2", [](double x) { return x == 1.0 || x == 2.0; }};
+
 }  // namespace flank::internal::accepted
 
 namespace flank::internal {
@@ -86,6 +88,15 @@ void visit_fields(Request& wheel, Visitor&& visit) {
                   "root fillets take",
                   kAny, Spelling::kFileOrText},
         wheel.tool);
+  visit(FieldInfo{"most_tools", "", "",
+                  "2: a larger tool roughs where one fits between the blades; 1: the tool that finishes roughs, too",
+                  kTools, Spelling::kPlain, "--tools"},
+        wheel.most_tools);
+  visit(FieldInfo{"holder", "", "",
+                  "Holder outline as z:r,z:r,... (height above its face and radius, mm), or a file of such pairs; "
+                  "shanks are as long as it needs. Default: not checked",
+                  kAny, Spelling::kFileOrText},
+        wheel.holder);
   visit(FieldInfo{"sample", "mm", "", "Fast check at this spacing, without the proof. Default: samples and a proof",
                   kLength},
         wheel.sample_mm);

@@ -90,6 +90,29 @@ void choose_clear_shank(const ClearanceScene& scene, const Path& path, const Box
   }
 }
 
+void lengthen_for_holder(const ClearanceScene& scene, const Path& path, const Box3& part,
+                         const std::vector<Vec2>& outline, ObstacleRequest& obstacles, Tool& tool) {
+  const auto with = [&](double length) {
+    obstacles.shank_length_mm = length;
+    Tool longer = with_shank(obstacles, tool);
+    longer.holder = outline;
+    for (Vec2& p : longer.holder) p.x() += longer.shank.back().x();
+    return longer;
+  };
+  const auto clear = [&](double length) { return keeps_clear(scene, with(length), path); };
+  double widest = 0.0;
+  for (const Vec2& p : outline) widest = std::max(widest, p.y());
+  double least = obstacles.shank_length_mm.value_or(0.0);
+  // There the whole holder is out of the part's box: nothing of the part is nearer.
+  double longest = std::max(least, std::ceil(shank_reach(tool, path, part, widest)));
+  if (clear(least)) longest = least;
+  while (longest - least > 1.0) {
+    const double middle = std::floor(0.5 * (least + longest));
+    (clear(middle) ? longest : least) = middle;
+  }
+  tool = with(longest);
+}
+
 void take_clear_shank(const ClearanceScene& scene, const Box3& part, double slenderest, ObstacleRequest& obstacles,
                       Result& result) {
   Tool flank = result.tool;

@@ -21,6 +21,11 @@ inline constexpr double kAnySlenderness = 1e300;  ///< of a tool whose stiffness
 void choose_clear_shank(const ClearanceScene& scene, const Path& path, const Box3& part, double slenderest,
                         const Tool& flank, ObstacleRequest& obstacles);
 
+/// Puts a holder on the end of the tool's shank, and makes the shank longer, by whole millimetres and to the least of them that halving finds, until
+/// both are clear along the path. `outline`: (z, radius), z from the holder's face. `obstacles`: as they chose the shank.
+void lengthen_for_holder(const ClearanceScene& scene, const Path& path, const Box3& part,
+                         const std::vector<Vec2>& outline, ObstacleRequest& obstacles, Tool& tool);
+
 /// Gives the result's tool the shank that its path lets in.
 void take_clear_shank(const ClearanceScene& scene, const Box3& part, double slenderest, ObstacleRequest& obstacles,
                       Result& result);

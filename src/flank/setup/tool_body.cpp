@@ -97,6 +97,11 @@ std::vector<Vec2> holder_profile(const std::string& text, double face) {
   return profile;
 }
 
+std::vector<Vec2> holder_outline(const std::string& text) {
+  const std::vector<Vec2> profile = holder_profile(text);
+  return lifted(profile, -profile.front().x());
+}
+
 void check_obstacles(const ObstacleRequest& request, const Tool* tool) {
   if (request.shank != "given" && request.shank_length_mm)
     throw UsageError("shank", request.shank, "contradicts `shank_length_mm`; give one of them");

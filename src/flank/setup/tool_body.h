@@ -23,4 +23,7 @@ void equip_tool(const ObstacleRequest& request, Tool& tool);
 /// holder's own face (read_holder_file) is put with that at z = `face`, mm.
 [[nodiscard]] std::vector<Vec2> holder_profile(const std::string& text, double face = 0.0);
 
+/// The same with z above the holder's own face: its lowest point is at 0.
+[[nodiscard]] std::vector<Vec2> holder_outline(const std::string& text);
+
 }  // namespace flank::internal

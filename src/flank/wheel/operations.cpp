@@ -13,13 +13,12 @@
 #include "flank/job/job_json.h"
 #include "flank/path_file.h"
 #include "flank/results/acceptance.h"
-#include "flank/setup/tool_body.h"
 #include "flank/tool_file.h"
-#include "flank/tool_request/tool_spec.h"
 #include "flank/wheel/blade_copies.h"
 #include "flank/wheel/guarded.h"
 #include "flank/wheel/judge_whole.h"
 #include "flank/wheel/perform.h"
+#include "flank/wheel/shanks.h"
 
 namespace flank::internal {
 namespace {
@@ -55,15 +54,9 @@ std::string tool_spec(WheelWork& work) {
   return fmt::format("cone:radius={:.2f},angle={}", std::floor(tip_radius(work) * 20.0) / 20.0, kTaperDeg);
 }
 
-/// Whether a tool is given with a shank or a holder.
-bool brings_body(const std::string& spec) {
-  const ToolSpec tool = parse_tool_spec(spec);
-  return tool.tool && has_body(*tool.tool);
-}
-
 /// A shank that nobody has given is as thick as the flank ends in the fits, and gets its length when all passes are known (give_shanks).
 Tool without_chosen_shank(const std::string& spec, Tool tool) {
-  if (!brings_body(spec)) tool.shank.clear();
+  if (!brings_body(spec)) tool.shank.clear(), tool.holder.clear();
   return tool;
 }
 

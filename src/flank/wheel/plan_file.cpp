@@ -72,6 +72,7 @@ nlohmann::ordered_json roughing_json(const JudgedRoughing& roughing) {
   const StockReport& stock = roughing.stock;
   nlohmann::ordered_json json{{"deepest_cut_mm", roughing.cuts.gouge_mm},
                               {"cut_bound_mm", roughing.cuts.gouge_bound_mm},
+                              {"left_mm", {roughing.left.median_mm, roughing.left.nine_tenths_mm}},
                               {"free_mm", roughing.free_mm}};
   for (const StockKind& kind : stock.kinds)
     json.update({{"engagement_deg", kind.engagement_deg},

@@ -40,8 +40,9 @@ constexpr double kLayerShare = 3.0;     ///< of the tip's radius, from layer to 
 constexpr int kMostLayers = 1'000'000;  ///< of one operation, where blades may stand free as far as they like
 constexpr const char* kId = "10";
 
-/// T2, where a tool larger than T1 fits; else T1.
+/// T2, where a tool larger than T1 fits and may be had; else T1.
 std::string choose_tool(WheelWork& work) {
+  if (work.job.most_tools < 2) return "T1";
   double width = 1e300, height = 0.0;
   for (const SectorChannel& channel : work.sector.channels)
     width = std::min(width, channel_width(floor_channel(work, channel), work.tool->radial));

@@ -18,6 +18,7 @@
 #include "flank/pipeline/folder/judge_roughing.h"
 #include "flank/results/write_result.h"
 #include "flank/setup/read_setup.h"
+#include "flank/setup/tool_body.h"
 #include "flank/wheel/blank.h"
 #include "flank/wheel/face_operations.h"
 #include "flank/wheel/floor_operation.h"
@@ -35,6 +36,10 @@ namespace fs = std::filesystem;
 
 void check(const WheelRequest& job) {
   check_fields(job);
+  // Read for its errors alone, before minutes are spent on a plan.
+  if (job.holder) (void)holder_outline(*job.holder);
+  if (job.holder && job.tool && brings_body(*job.tool))
+    throw UsageError("holder", "is for a tool that brings neither shank nor holder; expected one of them");
   if (job.blank && !job.rough) throw UsageError("blank", "is for roughing, which is left out");
 }
 
@@ -81,6 +86,7 @@ WheelBlank make_blank(const WheelRequest& job, const Part& part, WheelResult& re
   ReadFiles inputs;
   inputs.add(job.part, "as `part`");
   if (job.blank) inputs.add(*job.blank, "as `blank`");
+  if (job.holder && fs::exists(*job.holder)) inputs.add(*job.holder, "as `holder`");
   const Unwritten unwritten(inputs);
   write_mesh((fs::path(job.folder) / "blank.stl").string(), blank.body);
   result.blank = job.blank.value_or("turned");

@@ -11,6 +11,7 @@
 #include "flank/setup/shank_reach.h"
 #include "flank/setup/tool_body.h"
 #include "flank/tool_file.h"
+#include "flank/tool_request/tool_spec.h"
 #include "flank/wheel/judge_whole.h"
 #include "flank/wheel/perform.h"
 
@@ -36,6 +37,8 @@ Tool with_shank(const WheelWork& work, Tool tool, const Path& path, const std::s
   const ClearanceScene scene = make_clearance_scene(setup, obstacles, true, told);
   choose_clear_shank(scene, path, setup.part.box, kAnySlenderness, tool, obstacles);
   equip_tool(obstacles, tool);
+  if (work.job.holder)
+    lengthen_for_holder(scene, path, setup.part.box, holder_outline(*work.job.holder), obstacles, tool);
   notes.push_back(id + ": " + chosen_shank_text(tool, obstacles));
   return tool;
 }
@@ -55,6 +58,11 @@ void write_again(const WheelWork& work, const Tool& tool, const std::string& id,
 }
 
 }  // namespace
+
+bool brings_body(const std::string& spec) {
+  const ToolSpec tool = parse_tool_spec(spec);
+  return tool.tool && has_body(*tool.tool);
+}
 
 void give_shanks(WheelWork& work, std::vector<WheelOperation>& operations, std::vector<std::string>& notes) {
   for (const std::string id : {"T1", "T2"}) {

@@ -66,6 +66,7 @@ std::optional<JudgedRoughing> judge_roughing(const WheelPlan& plan, const Setup&
   out.tool = tool_of(plan.roughing());
   out.most_engagement_deg = plan.most_engagement_deg;
   out.cuts = judge_cuts(setup, out.tool, all);
+  out.left = left_by_roughing(setup, out.tool, all);
   out.most_free_mm = plan.most_free_mm;
   out.free_mm = free_height(plan, setup, steps, out.tool.radial.at(0.0).r);
   // One sector stands for its copies.
@@ -88,6 +89,8 @@ std::string roughing_text(const JudgedRoughing& roughing) {
         "; engagement up to {:.1f} degrees (+-{:.1f}, pass {}), {:.0f} of {:.0f} mm3 removed in one sector along "
         "{:.0f} mm of path",
         kind.engagement_deg, stock.resolution_deg, kind.strip + 1, kind.volume_mm3, stock.before_mm3, kind.way_mm);
+  text += fmt::format("; excess material of {:.2f} mm left on half of the surface, {:.2f} mm on nine tenths, at most",
+                      roughing.left.median_mm, roughing.left.nine_tenths_mm);
   if (roughing.free_mm > 0.0)
     text += fmt::format("; a blade stands free on one side by up to {:.2f} mm", roughing.free_mm);
   return text;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "flank/judge.h"
+#include "flank/pipeline/folder/rough_left.h"
 #include "flank/pipeline/folder/wheel_plan.h"
 #include "flank/results/acceptance.h"
 #include "flank/setup/setup.h"
@@ -18,6 +19,7 @@ struct JudgedRoughing {
   VerifyReport cuts;  ///< of all copies, on all judged faces: none of them may be cut
   StockReport stock;  ///< of one sector, in the whole blank: a copy meets no more material; kind "rough"
   double most_engagement_deg = 180.0;
+  RoughLeft left;
   double free_mm = 0.0, most_free_mm = 0.0;  ///< of a blade on one side alone; 0: no limit
 };
 

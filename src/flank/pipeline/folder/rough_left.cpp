@@ -1,0 +1,41 @@
+#include "flank/pipeline/folder/rough_left.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "flank/judge.h"
+#include "flank/pipeline/folder/judge_job.h"
+#include "flank/setup/target_reach.h"
+
+namespace flank::internal {
+namespace {
+
+constexpr double kSamples = 3e4;  ///< about, of all faces
+
+/// The least value that so much of the area does not exceed. `left`: ascending.
+double share_below(const std::vector<std::pair<double, double>>& left, double area) {
+  for (const auto& [value, own] : left)
+    if ((area -= own) <= 0.0) return value;
+  return left.empty() ? 0.0 : left.back().first;
+}
+
+}  // namespace
+
+RoughLeft left_by_roughing(const Setup& setup, const Tool& tool, const Path& all) {
+  const SweptVolume volume(tool, all);
+  const std::vector<FaceSamples> faces = target_samples(setup, coarse_spacing(setup, kSamples));
+  std::vector<std::pair<double, double>> left;
+  double area = 0.0;
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    const std::vector<SweptDistance> found = swept_distances(volume, faces[k], 1e300);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      left.emplace_back(std::max(0.0, found[i].f), faces[k].areas[i] * setup.copies_of(setup.targets[k]));
+      area += left.back().second;
+    }
+  }
+  std::sort(left.begin(), left.end());
+  return {share_below(left, 0.5 * area), share_below(left, 0.9 * area)};
+}
+
+}  // namespace flank::internal
