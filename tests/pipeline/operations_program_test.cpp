@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -233,6 +234,20 @@ TEST(OperationsProgram, OfAWheelIsJudgedAsAWhole) {
   const std::size_t begin = text.find(second), end = text.find("(OPERATION 3 OF 4");
   EXPECT_NE(complaint(judged(text.substr(0, begin) + text.substr(end))).find("refused:"), std::string::npos);
   EXPECT_NE(complaint(judged(replaced(text, second, "G1 ", "G0 "))).find("operation 2 of 4"), std::string::npos);
+}
+
+TEST(OperationsProgram, TellsOnceWhatIsSoOfEveryOperation) {
+  PostJob job = folders().post();
+  job.folder = folders().wheel(), job.more_folders.clear(), job.operations.clear();
+  job.machine = "linuxcnc-xyzac-trt";
+  const PostOutcome posted = run_post(job);
+  const auto tells = [](const std::string& note) {
+    return note.find("LinuxCNC stops at the end") != std::string::npos;
+  };
+  EXPECT_EQ(std::count_if(posted.notes.begin(), posted.notes.end(), tells), 1);
+  const auto one = std::find_if(posted.notes.begin(), posted.notes.end(), tells);
+  ASSERT_NE(one, posted.notes.end());
+  EXPECT_TRUE(one->starts_with("LinuxCNC")) << *one;
 }
 
 TEST(OperationsProgram, AxesAreWrittenWithoutExponents) {

@@ -63,24 +63,24 @@ double layer_depth(const WheelWork& work, const Tool& tool) {
   return free > 0.0 ? std::min(depth, free) : depth;
 }
 
-std::vector<Strip> cleared(WheelWork& work, const FloorChannel& channel, const Tool& tool) {
+/// All layers of all channels of a sector, a channel after the other.
+Path rough_path(WheelWork& work, const Tool& tool) {
   const double keep = kAllowanceMm + (work.equal() ? 0.0 : work.difference_mm);
   PointOptions options = work.point_options(work.roles.hub);
   options.enter_share = -keep / work.job.tolerance_mm;
   options.shank_mm = shank_radius(tool);
-  return clear_channel(channel, tool.radial, options,
-                       {.keep_mm = keep,
-                        .most_engagement_rad = work.job.most_engagement_deg * std::numbers::pi / 180.0,
-                        .layer_mm = layer_depth(work, tool),
-                        .face = face_list(work.roles.hub),
-                        .outline = work.blank.outline});
-}
-
-/// All layers of all channels of a sector, a channel after the other.
-Path rough_path(WheelWork& work, const Tool& tool) {
+  ClearingRequest request{.keep_mm = keep,
+                          .most_engagement_rad = work.job.most_engagement_deg * std::numbers::pi / 180.0,
+                          .layer_mm = layer_depth(work, tool),
+                          .face = face_list(work.roles.hub),
+                          .outline = work.blank.outline};
+  std::vector<FloorChannel> channels;
+  for (const SectorChannel& one : work.sector.channels) channels.push_back(floor_channel(work, one));
+  for (const FloorChannel& channel : channels)
+    request.layers = std::max(request.layers, layer_count(channel, request.outline, request.layer_mm));
   Path out;
-  for (const SectorChannel& one : work.sector.channels)
-    for (const Strip& strip : cleared(work, floor_channel(work, one), tool))
+  for (const FloorChannel& channel : channels)
+    for (const Strip& strip : clear_channel(channel, tool.radial, options, request))
       out.strips.push_back(thinned(strip, tool.radial.axis_length(), kChordShare * kAllowanceMm));
   return guarded(work, out, tool, -kGuardShare * kAllowanceMm - (work.equal() ? 0.0 : work.difference_mm), Turns::kAny);
 }

@@ -13,7 +13,7 @@ namespace flank::internal {
 namespace {
 
 constexpr double kChordShare = 0.4;  ///< of the tolerance: how true the triangles are
-constexpr double kUpright = 0.9;     ///< cosine between the way to the hub and its normal: less is beyond its border
+constexpr double kUpright = 0.99;    ///< cosine between the way to the hub and its normal: less is beyond its border
 
 /// The faces of the steps of a kind.
 TriangleMesh faces_of(const WheelPlan& plan, const std::vector<FaceTriangles>& faces, const std::string& kind) {

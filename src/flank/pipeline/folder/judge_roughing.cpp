@@ -51,12 +51,15 @@ Tool tool_of(const std::vector<const WheelStep*>& steps) {
 
 std::optional<JudgedRoughing> judge_roughing(const WheelPlan& plan, const Setup& setup) {
   std::vector<Path> steps;
-  Path all;
+  Path sector;
+  int copies = 1;
   for (const WheelStep* step : plan.roughing()) {
     steps.push_back(read_path((std::filesystem::path(step->folder) / "path.json").string()));
-    add_strips(all_copies(steps.back(), plan, step->copies), all);
+    add_strips(steps.back(), sector);
+    copies = step->copies;
   }
-  return judge_roughing(plan, setup, steps, all);
+  // A sector after the other, though they are machined in another order: the judge keeps one of equal sectors.
+  return judge_roughing(plan, setup, steps, all_copies(sector, plan, copies));
 }
 
 std::optional<JudgedRoughing> judge_roughing(const WheelPlan& plan, const Setup& setup, const std::vector<Path>& steps,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
 #include <utility>
 #include <variant>
 
@@ -26,7 +27,8 @@ namespace fs = std::filesystem;
 
 /// What the operations of a program do, in the part's frame, with all copies.
 struct Runs {
-  Path finish, rough;
+  Path finish;
+  std::map<int, Path> rough;      ///< of each copy
   std::vector<Path> rough_steps;  ///< the first copy of each operation that roughs
 };
 
@@ -70,7 +72,7 @@ Runs run_all(const VerifyJob& request, ProgramQuestion question, const Setup& se
     add_under(before, one.acceptance, all.acceptance);
     for (const std::string& note : one.notes) all.notes.push_back(before + note);
     if (rough && of.copy == 1) runs.rough_steps.push_back(run.plot.path);
-    append(run.plot.path, rough ? runs.rough : runs.finish);
+    append(run.plot.path, rough ? runs.rough[of.copy] : runs.finish);
   }
   return runs;
 }
@@ -105,7 +107,9 @@ Verification judge_wheel_program(const VerifyJob& request, const WheelPlan& plan
   measure_bodies(scene, tool, runs.finish, all.report);
   add_caveats(all.report, all.notes);
   prepend(accept(tool, all.report, question.judge), all.acceptance);
-  const std::optional<JudgedRoughing> roughing = judge_roughing(plan, setup, runs.rough_steps, runs.rough);
+  Path rough;
+  for (const auto& [copy, path] : runs.rough) append(path, rough);
+  const std::optional<JudgedRoughing> roughing = judge_roughing(plan, setup, runs.rough_steps, rough);
   accept_steps(plan, roughing, all.acceptance);
   if (roughing) all.notes.push_back(roughing_text(*roughing));
   return all;

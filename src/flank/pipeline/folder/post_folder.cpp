@@ -6,6 +6,8 @@
 #include <cmath>
 #include <filesystem>
 #include <numeric>
+#include <set>
+#include <utility>
 
 #include "flank/error.h"
 #include "flank/job/check_fields.h"
@@ -215,14 +217,30 @@ void add_operation(const PostOutcome& one, const std::string& before, bool first
   all.cutting_minutes += one.cutting_minutes;
   add_joints(one.joints, all.joints);
   add_under(before, one.acceptance, all.acceptance);
-  for (const std::string& note : one.notes) all.notes.push_back(before + note);
   all.operations.insert(all.operations.end(), one.operations.begin(), one.operations.end());
+}
+
+/// What is told of an operation: the words before it, and the text.
+using Told = std::vector<std::pair<std::string, std::string>>;
+
+/// What is told of every operation alike is said once, of all.
+void add_notes(const Told& told, std::size_t operations, std::vector<std::string>& notes) {
+  std::set<std::string> known;
+  for (const auto& [before, text] : told) {
+    const auto alike =
+        std::count_if(told.begin(), told.end(), [&, &own = text](const auto& x) { return x.second == own; });
+    if (static_cast<std::size_t>(alike) < operations)
+      notes.push_back(before + text);
+    else if (known.insert(text).second)
+      notes.push_back(text);
+  }
 }
 
 /// Every operation with all of its copies before the next: tools are changed as rarely as can be.
 std::vector<NcProgram> post_all(const Machine& machine, const ProgramPlan& plan, const WorkSetup& place,
                                 PostOutcome& outcome) {
   std::vector<NcProgram> programs;
+  Told told;
   const int count = plan.count();
   for (const PlannedOperation& one : plan.operations)
     for (int copy = 1; copy <= one.copies; ++copy) {
@@ -237,8 +255,10 @@ std::vector<NcProgram> post_all(const Machine& machine, const ProgramPlan& plan,
         before = heading(*program.header.operation);
       }
       add_operation(posted, before, programs.empty(), outcome);
+      for (const std::string& note : posted.notes) told.emplace_back(before, note);
       programs.push_back(std::move(program));
     }
+  add_notes(told, plan.operations.size(), outcome.notes);
   outcome.motion = outcome.operations.front().motion;
   return programs;
 }

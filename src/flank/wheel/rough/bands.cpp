@@ -6,16 +6,15 @@
 namespace flank::internal {
 
 std::vector<Path> bands_of(const Path& path, int layers) {
-  int highest = 0;
-  for (const Strip& strip : path.strips) highest = std::max(highest, strip.layer);
+  int lowest = 0;
+  for (const Strip& strip : path.strips) lowest = std::max(lowest, strip.layer);
   std::vector<Path> bands;
-  for (int top = highest; top > 0; top -= layers) {
+  for (int first = 1; first <= lowest; first += layers) {
     Path band;
-    for (Strip strip : path.strips) {
-      if (strip.layer > top || strip.layer <= top - layers) continue;
-      strip.layer = highest + 1 - strip.layer;
-      strip.id = static_cast<int>(band.strips.size()) + 1;
-      band.strips.push_back(std::move(strip));
+    for (const Strip& strip : path.strips) {
+      if (strip.layer < first || strip.layer - first >= layers) continue;
+      band.strips.push_back(strip);
+      band.strips.back().id = static_cast<int>(band.strips.size());
     }
     if (!band.strips.empty()) bands.push_back(std::move(band));
   }

@@ -23,8 +23,7 @@ using Layer = std::vector<ChannelLayer>;
 std::vector<Layer> layers_over(const FloorChannel& channel, const RadialFunction& radial, const PointOptions& options,
                                const ClearingRequest& request, const Cutter& cutter) {
   const ChannelLines lines(channel);
-  const int count =
-      1 + static_cast<int>(std::ceil(ChannelSection(channel, request.outline).height() / request.layer_mm));
+  const int count = layer_count(channel, request.outline, request.layer_mm);
   std::vector<Layer> out;
   std::optional<AxisField> below;
   for (int layer = 0; layer < count; ++layer) {
@@ -62,6 +61,10 @@ std::optional<StockGrid> stock_around(const std::vector<Layer>& layers, const Bl
 
 }  // namespace
 
+int layer_count(const FloorChannel& channel, const std::vector<Vec2>& outline, double layer_mm) {
+  return 1 + static_cast<int>(std::ceil(ChannelSection(channel, outline).height() / layer_mm));
+}
+
 std::vector<Strip> clear_channel(const FloorChannel& channel, const RadialFunction& radial, const PointOptions& options,
                                  const ClearingRequest& request) {
   const Cutter cutter(radial);
@@ -73,7 +76,7 @@ std::vector<Strip> clear_channel(const FloorChannel& channel, const RadialFuncti
   for (std::size_t k = layers.size(); k-- > 0;)
     for (const ChannelLayer& stretch : layers[k])
       for (Strip& strip : layer_cycles(stretch, cutter, limits, request.face, *stock)) {
-        strip.layer = static_cast<int>(k) + 1;
+        strip.layer = request.layers - static_cast<int>(k);
         out.push_back(std::move(strip));
       }
   return out;
