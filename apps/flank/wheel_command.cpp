@@ -21,14 +21,13 @@ namespace {
 
 /// The program of the whole, for a machine; what it lacks is told, and is a reason.
 struct WheelProgram {
-  std::optional<std::string> machine;
   double feed_mm_min = 1000.0, spindle_rpm = 8000.0;
 };
 
 Acceptance post_whole(const WheelProgram& program, const WheelRequest& job, bool quiet) {
   PostJob post;
   post.folder = job.folder;
-  post.machine = *program.machine;
+  post.machine = *job.machine;
   post.feed_mm_min = program.feed_mm_min;
   post.spindle_rpm = program.spindle_rpm;
   const PostOutcome outcome = run_post(post);
@@ -49,8 +48,6 @@ void add_more(CLI::App& app, WheelRequest& job, WheelProgram& program) {
   };
   add_short("--no-rough", job.rough, "As --rough off");
   add_short("--no-edges", job.edges, "As --edges off");
-  app.add_option("--machine", program.machine, "Also write the program for this machine (flank machine --list)")
-      ->group("Program");
   app.add_option("--feed", program.feed_mm_min, "Feed of the program, mm/min")->capture_default_str()->group("Program");
   app.add_option("--spindle", program.spindle_rpm, "Spindle speed of the program, 1/min")
       ->capture_default_str()
@@ -75,7 +72,6 @@ Subcommand add_wheel(CLI::App& parser) {
   auto job = std::make_shared<WheelRequest>();
   auto program = std::make_shared<WheelProgram>();
   FlagNames names = add_job_options(*app, *job);
-  names["machine"] = "--machine";
   add_more(*app, *job, *program);
   app->footer(
       "Example: flank example impeller -o wheel.step && flank wheel wheel.step --tolerance 0.05 -o out\nOperations "
@@ -88,7 +84,7 @@ Subcommand add_wheel(CLI::App& parser) {
       fmt::print("{}", plan_json(*result));
     else if (!common.quiet)
       fmt::print("{}  written to  {}\n", printable(wheel_text(*result), true), printable(job->folder));
-    if (program->machine && result->whole) {
+    if (job->machine && result->whole) {
       const Acceptance posted = post_whole(*program, *job, common.quiet || common.json);
       acceptance.reasons.insert(acceptance.reasons.end(), posted.reasons.begin(), posted.reasons.end());
     }

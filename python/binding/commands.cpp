@@ -68,6 +68,7 @@ void bind_wheel(py::module_& module) {
       .def_readwrite("allowance_mm", &WheelRequest::allowance_mm)
       .def_readwrite("most_engagement_deg", &WheelRequest::most_engagement_deg)
       .def_readwrite("balance", &WheelRequest::balance)
+      .def_readwrite("machine", &WheelRequest::machine)
       .def_readwrite("most_tilt_deg", &WheelRequest::most_tilt_deg)
       .def_readwrite("edges", &WheelRequest::edges)
       .def_readwrite("hub", &WheelRequest::hub)

@@ -753,6 +753,7 @@ def wheel(
     allowance_mm: float = 0.5,
     most_engagement_deg: float = 90.0,
     balance: float = 8.0,
+    machine: _File | None = None,
     most_tilt_deg: float = 100.0,
     hub: str | None = None,
     blades: Sequence[str] = (),
@@ -785,6 +786,8 @@ def wheel(
         The largest engagement of the tool while roughing, by trochoidal cycles: 90 is half of its width.
     balance
         How far roughing lets a blade stand free on one side alone, in thicknesses of the thinnest blade.
+    machine
+        A name or a file NAME.toml: no pass of the tip tilts the part further than it does.
     most_tilt_deg
         The largest angle between the tool and the wheel's axis on passes of the tip: as far as the machine tilts the part.
     hub, blades, splitters, count

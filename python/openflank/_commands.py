@@ -48,9 +48,9 @@ def machine(name):
     return json.loads(_core.machine_json(os.fspath(name)))
 
 
-def wheel(part, folder, *, tolerance_mm=0.05, unit=None, tool=None, coverage=0.97, effort="quick", sample_mm=None,
-          holder=None, most_tools=2, rough=True, edges=True, blank=None, allowance_mm=0.5, most_engagement_deg=90.0, balance=8.0, most_tilt_deg=100.0, hub=None,
-          blades=(), splitters=(), count=None, progress=None):
+def wheel(part, folder, *, tolerance_mm=0.05, unit=None, tool=None, coverage=0.97, effort="quick", sample_mm=None, holder=None,
+          most_tools=2, rough=True, edges=True, blank=None, allowance_mm=0.5, most_engagement_deg=90.0, balance=8.0, machine=None,
+          most_tilt_deg=100.0, hub=None, blades=(), splitters=(), count=None, progress=None):
     """Mills a whole wheel, as flank wheel does: plan.json as a dict (docs/schema/wheel.md). The results lie in the folder.
 
     part, unit
@@ -76,6 +76,8 @@ def wheel(part, folder, *, tolerance_mm=0.05, unit=None, tool=None, coverage=0.9
         The largest engagement of the tool while roughing, by trochoidal cycles: 90 is half of its width.
     balance
         How far roughing lets a blade stand free on one side alone, in thicknesses of the thinnest blade.
+    machine
+        A name or a file NAME.toml: no pass of the tip tilts the part further than it does.
     most_tilt_deg
         The largest angle between the tool and the wheel's axis on passes of the tip: as far as the machine tilts the part.
     hub, blades, splitters, count
@@ -90,7 +92,8 @@ def wheel(part, folder, *, tolerance_mm=0.05, unit=None, tool=None, coverage=0.9
              "tool": None if tool is None else os.fspath(tool), "coverage": coverage, "effort": effort, "sample_mm": sample_mm,
              "holder": None if holder is None else os.fspath(holder), "most_tools": most_tools, "rough": rough, "edges": edges,
              "blank": None if blank is None else os.fspath(blank), "allowance_mm": allowance_mm,
-             "most_engagement_deg": most_engagement_deg, "balance": balance, "most_tilt_deg": most_tilt_deg,
+             "most_engagement_deg": most_engagement_deg, "balance": balance,
+             "machine": None if machine is None else os.fspath(machine), "most_tilt_deg": most_tilt_deg,
              "hub": hub, "blades": list(blades), "splitters": list(splitters), "count": count}
     for name, value in given.items():
         setattr(request, name, value)

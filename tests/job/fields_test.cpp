@@ -131,10 +131,10 @@ Addresses members(const VerifyJob& job) {
 Addresses members(const WheelRequest& job) {
   // The folder is given beside the fields, as of the other jobs.
   const auto& [part, folder, unit, tolerance, coverage, effort, tool, holder, tools, sample, rough, edges, blank,
-               allowance, engagement, balance, tilt, hub, blades, splitters, count] = job;
+               allowance, engagement, balance, machine, tilt, hub, blades, splitters, count] = job;
   Addresses all;
   add(all, part, unit, tolerance, coverage, effort, tool, holder, tools, sample, rough, edges, blank, allowance,
-      engagement, balance, tilt, hub, blades, splitters, count);
+      engagement, balance, machine, tilt, hub, blades, splitters, count);
   return all;
 }
 

@@ -10,7 +10,7 @@
 #include "flank/io/cad/write_step.h"
 #include "flank/job/job_json.h"
 #include "flank/path_file.h"
-#include "flank/pipeline/folder/judge_job.h"
+#include "flank/pipeline/judge/judge_job.h"
 #include "flank/run.h"
 #include "flank/setup/clearance_scene.h"
 #include "flank/tool_file.h"

@@ -1,9 +1,9 @@
 // Strips inside a solid, a closed mesh or a fixture, and on the wrong side of a sheet, fail the verdict.
-#include "flank/pipeline/folder/find_buried.h"
+#include "flank/pipeline/judge/find_buried.h"
 
 #include <gtest/gtest.h>
 
-#include "flank/pipeline/folder/judge_job.h"
+#include "flank/pipeline/judge/judge_job.h"
 #include "flank/results/acceptance.h"
 #include "flank/verify/sample_face.h"
 #include "obstacle/obstacle_scene.h"

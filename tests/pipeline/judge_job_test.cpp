@@ -1,4 +1,4 @@
-#include "flank/pipeline/folder/judge_job.h"
+#include "flank/pipeline/judge/judge_job.h"
 
 #include <gtest/gtest.h>
 

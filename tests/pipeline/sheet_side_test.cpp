@@ -9,7 +9,7 @@
 #include "flank/error.h"
 #include "flank/example.h"
 #include "flank/example/example_write.h"
-#include "flank/pipeline/folder/judge_job.h"
+#include "flank/pipeline/judge/judge_job.h"
 #include "flank/run.h"
 #include "flank/setup/read_setup.h"
 #include "sanitized.h"

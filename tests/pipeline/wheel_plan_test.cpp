@@ -11,7 +11,7 @@
 #include "flank/path_file.h"
 #include "flank/pipeline/folder/free_height.h"
 #include "flank/pipeline/folder/judge_roughing.h"
-#include "flank/pipeline/folder/rough_left.h"
+#include "flank/pipeline/judge/rough_left.h"
 #include "flank/pipeline/program/operation_words.h"
 #include "temporary_folder.h"
 #include "verify/faces.h"

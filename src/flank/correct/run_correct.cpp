@@ -20,7 +20,7 @@
 #include "flank/manifest/result_folder.h"
 #include "flank/path_file.h"
 #include "flank/pipeline/folder/folder_job.h"
-#include "flank/pipeline/folder/judge_job.h"
+#include "flank/pipeline/judge/judge_job.h"
 #include "flank/setup/read_setup.h"
 #include "flank/setup/targets.h"
 #include "flank/tool_file.h"

@@ -45,6 +45,11 @@ void visit_wheel_work(Request& wheel, Visitor& visit) {
                   "then the other channels are cut as deep",
                   kThicknesses},
         wheel.balance);
+  visit(FieldInfo{"machine", "", kProgram,
+                  "The machine: a name (flank machine --list) or a file NAME.toml. No pass of the tip tilts the part "
+                  "further than it does, and flank wheel also writes its program. Default: any machine, no program",
+                  kAny, Spelling::kFileOrText},
+        wheel.machine);
   visit(FieldInfo{"most_tilt", "deg", kProgram,
                   "Largest angle between the tool and the wheel's axis on passes of the tip: as far as the machine "
                   "tilts the part",

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "flank/base/stopping.h"
-#include "flank/pipeline/folder/judge_job.h"
+#include "flank/pipeline/judge/judge_job.h"
 #include "flank/results/view.h"
 
 namespace flank::internal {

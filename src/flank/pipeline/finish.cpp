@@ -11,7 +11,7 @@
 #include "flank/motion/written_path.h"
 #include "flank/path/bend_radius.h"
 #include "flank/pipeline/cut_direction.h"
-#include "flank/pipeline/folder/judge_job.h"
+#include "flank/pipeline/judge/judge_job.h"
 #include "flank/results/view.h"
 #include "flank/strip/used_times.h"
 #include "flank/surface/ball_touch.h"

@@ -19,7 +19,7 @@
 #include "flank/job/redesign_fields.h"
 #include "flank/manifest/kept_inputs.h"
 #include "flank/pipeline/finish.h"
-#include "flank/pipeline/folder/judge_job.h"
+#include "flank/pipeline/judge/judge_job.h"
 #include "flank/pipeline/run_fit.h"
 #include "flank/pipeline/run_journal.h"
 #include "flank/pipeline/search/fit_search.h"

@@ -52,7 +52,7 @@ void settle(const Result& result, WheelOperation& operation) {
 WheelOperation perform(const WheelWork& work, WheelOperation operation, const std::string& decides,
                        const std::function<Result()>& make) {
   operation.folder = "ops/" + operation.id + "-" + operation.kind;
-  operation.key = sha256(work.part.sha256 + work.program + decides + fmt::format(" {}", work.job.most_tilt_deg));
+  operation.key = sha256(work.part.sha256 + work.program + decides + fmt::format(" {}", work.most_tilt_deg));
   const auto known = work.finished.find(operation.id);
   if (known != work.finished.end() && known->second.done && known->second.key == operation.key &&
       fs::exists(in_folder(work, operation.folder + "/path.json"))) {

@@ -16,6 +16,7 @@
 #include "flank/job/input_files.h"
 #include "flank/job/wheel_fields.h"
 #include "flank/pipeline/folder/judge_roughing.h"
+#include "flank/pipeline/folder/machine_tilt.h"
 #include "flank/results/write_result.h"
 #include "flank/setup/read_setup.h"
 #include "flank/setup/tool_body.h"
@@ -36,11 +37,16 @@ namespace fs = std::filesystem;
 
 void check(const WheelRequest& job) {
   check_fields(job);
+  if (job.machine) (void)machine_tilt_deg(*job.machine);
   // Read for its errors alone, before minutes are spent on a plan.
   if (job.holder) (void)holder_outline(*job.holder);
   if (job.holder && job.tool && brings_body(*job.tool))
     throw UsageError("holder", "is for a tool that brings neither shank nor holder; expected one of them");
   if (job.blank && !job.rough) throw UsageError("blank", "is for roughing, which is left out");
+}
+
+double tilt_of(const WheelRequest& job) {
+  return job.machine ? std::min(job.most_tilt_deg, machine_tilt_deg(*job.machine)) : job.most_tilt_deg;
 }
 
 void make_folder(const std::string& folder) {
@@ -111,6 +117,7 @@ WheelResult run_wheel(const WheelRequest& job, const Progress& progress) {
   const WheelBlank blank = make_blank(job, part, result);
   WheelWork work{
       job, result.roles, sector, part, blank, FaceTargets(part), wheel_faces(part), finished_operations(file)};
+  work.most_tilt_deg = tilt_of(job);
   work.begins = [&](const std::string& id) { plan.begin(id); };
   const auto run = [&](WheelOperation operation) {
     plan.add(std::move(operation));

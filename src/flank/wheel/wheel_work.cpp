@@ -171,7 +171,7 @@ PointOptions WheelWork::point_options(const Names& names) {
   PointOptions options;
   options.tolerance_mm = job.tolerance_mm;
   options.turn_window_mm = kWindowShare * turn_window(size);
-  options.held = {up(), job.most_tilt_deg * std::numbers::pi / 180.0};
+  options.held = {up(), most_tilt_deg * std::numbers::pi / 180.0};
   if (tool) options.shank_mm = shank_radius(*tool);
   return options;
 }

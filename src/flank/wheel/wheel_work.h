@@ -43,6 +43,7 @@ struct WheelWork {
   /// How far the blades are from turned copies of the first one, mm. From `kEqualShare` of the tolerance on every sector has paths of its
   /// own, and `finish` holds them all.
   double difference_mm = 0.0;
+  double most_tilt_deg = 100.0;         ///< that is asked for, or that the machine allows
   std::optional<Tool> tool = {};        ///< T1: finishes
   std::optional<Tool> rough_tool = {};  ///< T2: roughs, where it is another one
   Path finish = {};                     ///< strips that finish something, in their order

@@ -12,7 +12,7 @@
 #include "flank/manifest/result_folder.h"
 #include "flank/path_file.h"
 #include "flank/pipeline/folder/free_height.h"
-#include "flank/pipeline/folder/judge_job.h"
+#include "flank/pipeline/judge/judge_job.h"
 #include "flank/setup/clearance_scene.h"
 #include "flank/setup/tool_body.h"
 #include "flank/tool_file.h"

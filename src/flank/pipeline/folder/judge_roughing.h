@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "flank/judge.h"
-#include "flank/pipeline/folder/rough_left.h"
 #include "flank/pipeline/folder/wheel_plan.h"
+#include "flank/pipeline/judge/rough_left.h"
 #include "flank/results/acceptance.h"
 #include "flank/setup/setup.h"
 #include "flank/tool.h"

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "flank/pipeline/folder/judge_job.h"
 #include "flank/pipeline/folder/link_lift.h"
+#include "flank/pipeline/judge/judge_job.h"
 #include "flank/setup/targets.h"
 
 namespace flank::internal {

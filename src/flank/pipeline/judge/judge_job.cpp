@@ -1,4 +1,4 @@
-#include "flank/pipeline/folder/judge_job.h"
+#include "flank/pipeline/judge/judge_job.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 #include "flank/io/face_names.h"
 #include "flank/limit/least_left.h"
 #include "flank/path/turning.h"
-#include "flank/pipeline/folder/find_buried.h"
+#include "flank/pipeline/judge/find_buried.h"
 #include "flank/setup/target_reach.h"
 #include "flank/setup/targets.h"
 #include "flank/tool/grown.h"

@@ -1,11 +1,11 @@
-#include "flank/pipeline/folder/rough_left.h"
+#include "flank/pipeline/judge/rough_left.h"
 
 #include <algorithm>
 #include <utility>
 #include <vector>
 
 #include "flank/judge.h"
-#include "flank/pipeline/folder/judge_job.h"
+#include "flank/pipeline/judge/judge_job.h"
 #include "flank/setup/target_reach.h"
 
 namespace flank::internal {

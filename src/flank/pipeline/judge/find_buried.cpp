@@ -1,4 +1,4 @@
-#include "flank/pipeline/folder/find_buried.h"
+#include "flank/pipeline/judge/find_buried.h"
 
 #include <algorithm>
 #include <functional>
