@@ -30,9 +30,20 @@ std::string words(const Path& band) {
 TEST(RoughBands, AreLayersOfAllChannels) {
   const std::vector<Path> bands = bands_of(two_channels(), 2);
   ASSERT_EQ(bands.size(), 3U) << "layers 1 and 2 are empty";
-  EXPECT_EQ(words(bands[0]), "1F1/3 2F1/4 3F1/4 4F2/4 ");
-  EXPECT_EQ(words(bands[1]), "1F1/5 2F1/6 3F2/5 ");
-  EXPECT_EQ(words(bands[2]), "1F1/7 2F2/7 ");
+  EXPECT_EQ(words(bands[0]), "1F1/3 ") << "below 0";
+  EXPECT_EQ(words(bands[1]), "1F1/4 2F1/4 3F1/5 4F2/4 5F2/5 ");
+  EXPECT_EQ(words(bands[2]), "1F1/6 2F1/7 3F2/7 ");
+}
+
+TEST(RoughBands, ABandEndsSoFarBelowTheLastLayerThatIsCut) {
+  Path path = two_channels();
+  // Nothing is in layer 5: the next band goes to layer 6, not to layer 7.
+  std::erase_if(path.strips, [](const Strip& strip) { return strip.layer == 5; });
+  const std::vector<Path> bands = bands_of(path, 2);
+  ASSERT_EQ(bands.size(), 4U);
+  EXPECT_EQ(words(bands[1]), "1F1/4 2F1/4 3F2/4 ");
+  EXPECT_EQ(words(bands[2]), "1F1/6 ");
+  EXPECT_EQ(words(bands[3]), "1F1/7 2F2/7 ");
 }
 
 TEST(RoughBands, AllLayersAreOneWhereTheyMayBe) {

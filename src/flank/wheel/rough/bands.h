@@ -7,7 +7,8 @@
 
 namespace flank::internal {
 
-/// So many layers of all channels each, from layer 1 down, the strips of a band in the order of `path`; a band without strips is left out.
+/// Layers of all channels, from layer 1 down, the strips of a band in the order of `path`: each band ends so many layers below the lowest one of the
+/// band before it that has strips, at most; the first one below 0.
 [[nodiscard]] std::vector<Path> bands_of(const Path& path, int layers);
 
 }  // namespace flank::internal
