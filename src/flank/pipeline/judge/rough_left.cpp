@@ -5,13 +5,12 @@
 #include <vector>
 
 #include "flank/judge.h"
-#include "flank/pipeline/judge/judge_job.h"
 #include "flank/setup/target_reach.h"
 
 namespace flank::internal {
 namespace {
 
-constexpr double kSamples = 3e4;  ///< about, of all faces
+constexpr double kSpacingShare = 0.01;  ///< of the part's diagonal: some ten thousand samples of a wheel
 
 /// The least value that so much of the area does not exceed. `left`: ascending.
 double share_below(const std::vector<std::pair<double, double>>& left, double area) {
@@ -24,7 +23,7 @@ double share_below(const std::vector<std::pair<double, double>>& left, double ar
 
 RoughLeft left_by_roughing(const Setup& setup, const Tool& tool, const Path& all) {
   const SweptVolume volume(tool, all);
-  const std::vector<FaceSamples> faces = target_samples(setup, coarse_spacing(setup, kSamples));
+  const std::vector<FaceSamples> faces = target_samples(setup, kSpacingShare * setup.part.box.diagonal());
   std::vector<std::pair<double, double>> left;
   double area = 0.0;
   for (std::size_t k = 0; k < faces.size(); ++k) {
