@@ -222,7 +222,7 @@ TEST(RoughLeft, IsWhatLiesBetweenTheSurfaceAndThePath) {
     for (double z = 0.0; z <= to; z += 0.5)
       path.strips.push_back(
           {1, "rough", "F1", {{Vec3(0.0, 1.4, z), Vec3::UnitY()}, {Vec3(40.0, 1.4, z), Vec3::UnitY()}}});
-    const RoughLeft left = left_by_roughing(setup, tool, path);
+    const RoughLeft left = left_by_roughing(setup, tool, path, 0.25);
     if (to == 20.0) {
       // Below a pass, and half way to the next one.
       EXPECT_GE(left.median_mm, 0.4 - 1e-9);

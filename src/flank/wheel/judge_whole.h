@@ -4,13 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "flank/pipeline/folder/wheel_plan.h"
 #include "flank/wheel/wheel_work.h"
 
 namespace flank::internal {
-
-/// A ball of this radius touches what is open of the flow surface: places inside other solids, and below a blade's foot, are not.
-/// As a share of the tolerance.
-inline constexpr double kOpenBall = 5.0;
 
 /// How closely: an operation's own verdict is a draft, at few samples; the whole is judged as the job says.
 enum class Care { kDraft, kFull };

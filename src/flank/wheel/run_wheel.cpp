@@ -77,7 +77,10 @@ void judge(WheelWork& work, WheelResult& result) {
   if (work.finish.strips.empty()) return;
   result.whole = judge_whole(work);
   result.figures = role_figures(result.roles, result.whole->verify);
-  result.roughing = judge_roughing(*read_wheel_plan(work.job.folder), setup_of(*result.whole));
+  const WheelPlan plan = *read_wheel_plan(work.job.folder);
+  Setup setup = setup_of(*result.whole);
+  stand_whole(plan, setup);
+  result.roughing = judge_roughing(plan, setup);
   write_whole(result, work.job.folder);
   WheelRest rest = rest_of(work, *result.whole);
   result.rest = std::move(rest.places);

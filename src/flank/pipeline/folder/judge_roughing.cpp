@@ -69,7 +69,7 @@ std::optional<JudgedRoughing> judge_roughing(const WheelPlan& plan, const Setup&
   out.tool = tool_of(plan.roughing());
   out.most_engagement_deg = plan.most_engagement_deg;
   out.cuts = judge_cuts(setup, out.tool, all);
-  out.left = left_by_roughing(setup, out.tool, all);
+  out.left = left_by_roughing(setup, out.tool, all, kOpenBall * setup.tolerance_mm);
   out.most_free_mm = plan.most_free_mm;
   out.free_mm = free_height(plan, setup, steps, out.tool.radial.at(0.0).r);
   // One sector stands for its copies.

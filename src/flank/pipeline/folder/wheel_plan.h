@@ -11,6 +11,10 @@
 
 namespace flank::internal {
 
+/// A ball of this radius touches what is open of the flow surface: places inside other solids, and below a blade's foot, are not.
+/// As a share of the tolerance.
+inline constexpr double kOpenBall = 5.0;
+
 struct WheelStep {
   std::string id, kind;                 ///< "10", "rough"
   std::string folder;                   ///< of its result, beside the working folder

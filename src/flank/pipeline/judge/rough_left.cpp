@@ -21,15 +21,19 @@ double share_below(const std::vector<std::pair<double, double>>& left, double ar
 
 }  // namespace
 
-RoughLeft left_by_roughing(const Setup& setup, const Tool& tool, const Path& all) {
+RoughLeft left_by_roughing(const Setup& setup, const Tool& tool, const Path& all, double ball_mm) {
   const SweptVolume volume(tool, all);
-  const std::vector<FaceSamples> faces = target_samples(setup, kSpacingShare * setup.part.box.diagonal());
+  std::vector<FaceSamples> faces = target_samples(setup, kSpacingShare * setup.part.box.diagonal());
+  const TargetReach reach(setup, ReachBall{ball_mm}, faces);
   std::vector<std::pair<double, double>> left;
   double area = 0.0;
   for (std::size_t k = 0; k < faces.size(); ++k) {
+    reach.fill(setup.targets[k], faces[k]);
+    const std::vector<double>& open = faces[k].reachable;
     const std::vector<SweptDistance> found = swept_distances(volume, faces[k], 1e300);
     for (std::size_t i = 0; i < found.size(); ++i) {
-      left.emplace_back(std::max(0.0, found[i].f), faces[k].areas[i] * setup.copies_of(setup.targets[k]));
+      left.emplace_back(std::max(0.0, found[i].f),
+                        (open.empty() ? 1.0 : open[i]) * faces[k].areas[i] * setup.copies_of(setup.targets[k]));
       area += left.back().second;
     }
   }
