@@ -23,7 +23,8 @@ struct WheelRequest {
   std::optional<std::string> blank;   ///< a closed body, CAD or mesh; none: turned about the part
   double allowance_mm = 0.5;          ///< of a turned blank, > 0
   double most_engagement_deg = 90.0;  ///< that roughing may have, in (0, 180]
-  double balance = 8.0;               ///< thicknesses by which roughing lets a blade stand free on one side alone, >= 1
+  std::optional<double>
+      balance;  ///< thicknesses by which roughing lets a blade stand free on one side alone, >= 1; none: any
   std::optional<std::string>
       machine;                   ///< a name or a file NAME.toml: no pass of the tip tilts the part further than it does
   double most_tilt_deg = 100.0;  ///< between the tool and the wheel's axis on passes of the tip, in (0, 180]

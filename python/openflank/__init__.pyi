@@ -752,7 +752,7 @@ def wheel(
     blank: _File | None = None,
     allowance_mm: float = 0.5,
     most_engagement_deg: float = 90.0,
-    balance: float = 8.0,
+    balance: float | None = None,
     machine: _File | None = None,
     most_tilt_deg: float = 100.0,
     hub: str | None = None,
@@ -785,7 +785,7 @@ def wheel(
     most_engagement_deg
         The largest engagement of the tool while roughing, by trochoidal cycles: 90 is half of its width.
     balance
-        How far roughing lets a blade stand free on one side alone, in thicknesses of the thinnest blade.
+        How far roughing lets a blade stand free on one side alone, in thicknesses of the thinnest blade. None: any.
     machine
         A name or a file NAME.toml: no pass of the tip tilts the part further than it does.
     most_tilt_deg

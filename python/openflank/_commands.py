@@ -49,7 +49,7 @@ def machine(name):
 
 
 def wheel(part, folder, *, tolerance_mm=0.05, unit=None, tool=None, coverage=0.97, effort="quick", sample_mm=None, holder=None,
-          most_tools=2, rough=True, edges=True, blank=None, allowance_mm=0.5, most_engagement_deg=90.0, balance=8.0, machine=None,
+          most_tools=2, rough=True, edges=True, blank=None, allowance_mm=0.5, most_engagement_deg=90.0, balance=None, machine=None,
           most_tilt_deg=100.0, hub=None, blades=(), splitters=(), count=None, progress=None):
     """Mills a whole wheel, as flank wheel does: plan.json as a dict (docs/schema/wheel.md). The results lie in the folder.
 
@@ -75,7 +75,7 @@ def wheel(part, folder, *, tolerance_mm=0.05, unit=None, tool=None, coverage=0.9
     most_engagement_deg
         The largest engagement of the tool while roughing, by trochoidal cycles: 90 is half of its width.
     balance
-        How far roughing lets a blade stand free on one side alone, in thicknesses of the thinnest blade.
+        How far roughing lets a blade stand free on one side alone, in thicknesses of the thinnest blade. None: any.
     machine
         A name or a file NAME.toml: no pass of the tip tilts the part further than it does.
     most_tilt_deg

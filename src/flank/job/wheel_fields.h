@@ -42,7 +42,7 @@ void visit_wheel_work(Request& wheel, Visitor& visit) {
         wheel.most_engagement_deg);
   visit(FieldInfo{"balance", "", kRoughing,
                   "How far roughing lets a blade stand free on one side alone, in thicknesses of the thinnest blade: "
-                  "then the other channels are cut as deep",
+                  "then the other channels are cut as deep. Default: any, a channel after the other",
                   kThicknesses},
         wheel.balance);
   visit(FieldInfo{"machine", "", kProgram,

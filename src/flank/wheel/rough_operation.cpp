@@ -137,7 +137,7 @@ double most_free_mm(const WheelRequest& job, const WheelRoles& roles) {
   double thinnest = 0.0;
   for (const WheelBlade& blade : roles.blades)
     if (blade.thickness_mm > 0.0 && (thinnest == 0.0 || blade.thickness_mm < thinnest)) thinnest = blade.thickness_mm;
-  return job.balance * thinnest;
+  return job.balance.value_or(0.0) * thinnest;
 }
 
 std::vector<WheelOperation> rough_operations(WheelWork& work) {
@@ -151,7 +151,7 @@ std::vector<WheelOperation> rough_operations(WheelWork& work) {
   operation.copies = work.sector.copies;
   const Tool tool = operation.tool == "T2" ? *work.rough_tool : *work.tool;
   std::string decides = tool_to_json(tool) + fmt::format("{} {} {} {}", work.job.tolerance_mm, work.difference_mm,
-                                                         work.job.most_engagement_deg, work.job.balance);
+                                                         work.job.most_engagement_deg, work.job.balance.value_or(0.0));
   if (work.job.blank) decides += sha256(read_file(*work.job.blank));
   try {
     return perform_bands(work, operation, tool, decides);

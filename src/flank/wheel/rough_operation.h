@@ -7,7 +7,7 @@
 
 namespace flank::internal {
 
-/// How far roughing may let a blade stand free on one side alone, mm: thicknesses of the thinnest one; 0: of no blade the thickness is known.
+/// How far roughing may let a blade stand free on one side alone, mm: thicknesses of the thinnest one; 0: as far as it likes.
 [[nodiscard]] double most_free_mm(const WheelRequest& job, const WheelRoles& roles);
 
 /// Layers over the hub, from the tips' outline down, in all channels of one sector, with a larger tool where one fits between the blades.
