@@ -150,8 +150,9 @@ std::vector<WheelOperation> rough_operations(WheelWork& work) {
   operation.tool = choose_tool(work);
   operation.copies = work.sector.copies;
   const Tool tool = operation.tool == "T2" ? *work.rough_tool : *work.tool;
-  std::string decides = tool_to_json(tool) + fmt::format("{} {} {} {}", work.job.tolerance_mm, work.difference_mm,
-                                                         work.job.most_engagement_deg, work.job.balance.value_or(0.0));
+  std::string decides = tool_to_json(tool) + fmt::format("{} {} {} {} {}", work.job.tolerance_mm, work.difference_mm,
+                                                         work.job.most_engagement_deg, work.job.balance.value_or(0.0),
+                                                         work.most_tilt_deg);
   if (work.job.blank) decides += sha256(read_file(*work.job.blank));
   try {
     return perform_bands(work, operation, tool, decides);
