@@ -32,26 +32,6 @@ MotionGuard guard_of(WheelWork& work, const Path& path, const RadialFunction& ra
   return {work.guard_triangles(path, radial, off), off, radial, most_mm};
 }
 
-/// Whether the tool is held during a motion: its shank keeps out of the whole wheel.
-class HoldGuard {
- public:
-  HoldGuard(WheelWork& work, const Tool& tool)
-      : from_mm_(tool.radial.axis_length() + shank_radius(tool)),
-        rod_(ToolFamily::kCylinder, work.reach_mm(),
-             Eigen::VectorXd::Constant(1, rod_radius(shank_radius(tool), work.reach_mm(), RodRoom::kGuarded))),
-        guard_(work.wheel_triangles(), 0.0, rod_, 0.0) {}
-  HoldGuard(const HoldGuard&) = delete;
-  HoldGuard& operator=(const HoldGuard&) = delete;
-  [[nodiscard]] bool is_free(const Pose& from, const Pose& to) const {
-    return guard_.is_free({from.at(from_mm_), from.axis}, {to.at(from_mm_), to.axis});
-  }
-
- private:
-  double from_mm_;
-  RadialFunction rod_;
-  MotionGuard guard_;
-};
-
 /// How far each pose moves: as the one beside it that needs most asks, less by how far that is.
 std::vector<Vec3> spread(const std::vector<Vec3>& needs) {
   std::vector<Vec3> out(needs.size(), Vec3::Zero());
@@ -66,6 +46,17 @@ std::vector<Vec3> spread(const std::vector<Vec3>& needs) {
 }
 
 }  // namespace
+
+PathGuard::PathGuard(WheelWork& work, const Path& around, const Tool& tool, double most_mm)
+    : flank_(guard_of(work, around, tool.radial, most_mm)),
+      rod_(ToolFamily::kCylinder, work.reach_mm(),
+           Eigen::VectorXd::Constant(1, rod_radius(shank_radius(tool), work.reach_mm(), RodRoom::kGuarded))),
+      rod_from_mm_(tool.radial.axis_length() + shank_radius(tool)),
+      shank_(work.wheel_triangles(), 0.0, rod_, 0.0) {}
+
+bool PathGuard::is_free(const Pose& from, const Pose& to) const {
+  return flank_.is_free(from, to) && shank_.is_free({from.at(rod_from_mm_), from.axis}, {to.at(rod_from_mm_), to.axis});
+}
 
 Path lifted(WheelWork& work, const Path& path) {
   const MotionGuard guard = guard_of(work, path, work.tool->radial, kMostShare * work.job.tolerance_mm);
@@ -91,8 +82,7 @@ Path guarded(WheelWork& work, const Path& path) {
 
 Path guarded(WheelWork& work, const Path& path, const Tool& tool, double most_mm, Turns turns) {
   const RadialFunction& radial = tool.radial;
-  const MotionGuard guard = guard_of(work, path, radial, most_mm);
-  const HoldGuard hold(work, tool);
+  const PathGuard guard(work, path, tool, most_mm);
   std::vector<std::pair<std::size_t, std::size_t>> all;
   for (std::size_t s = 0; s < path.strips.size(); ++s)
     for (std::size_t k = 0; k + 1 < path.strips[s].poses.size(); ++k) all.emplace_back(s, k);
@@ -100,7 +90,7 @@ Path guarded(WheelWork& work, const Path& path, const Tool& tool, double most_mm
   parallel_for(all.size(), [&](std::size_t n) {
     const std::vector<Pose>& poses = path.strips[all[n].first].poses;
     const Pose &from = poses[all[n].second], &to = poses[all[n].second + 1];
-    free[n] = guard.is_free(from, to) && hold.is_free(from, to) ? 1 : 0;
+    free[n] = guard.is_free(from, to) ? 1 : 0;
   });
   Path out;
   std::map<std::string, PointOptions> options_of;

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -20,42 +21,19 @@
 #include "flank/wheel/guarded.h"
 #include "flank/wheel/judge_whole.h"
 #include "flank/wheel/perform.h"
-#include "flank/wheel/point/axis_rod.h"
-#include "flank/wheel/point/floor_passes.h"
 #include "flank/wheel/point/pass_strips.h"
 #include "flank/wheel/rough/bands.h"
 #include "flank/wheel/rough/clear_channel.h"
+#include "flank/wheel/rough_tool.h"
 
 namespace flank::internal {
 namespace {
 
-constexpr double kAllowanceMm = 0.3;  ///< that roughing leaves
-constexpr double kChordShare = 0.05;  ///< of that, by which the path may leave the places that have room
-constexpr double kWidthShare =
-    0.2;  ///< of a channel's width round the axis, that the tip's radius takes: channels run aslant
-constexpr double kTaperDeg = 5.0;
-constexpr double kSmallestGain = 1.2;   ///< a tool that is no larger is not worth a change
+constexpr double kChordShare = 0.05;    ///< of what is left, by which the path may leave the places that have room
 constexpr double kGuardShare = 0.3;     ///< of what is left, by which it is proved to keep off
 constexpr double kLayerShare = 3.0;     ///< of the tip's radius, from layer to layer, at most
 constexpr int kMostLayers = 1'000'000;  ///< of one operation, where blades may stand free as far as they like
 constexpr const char* kId = "10";
-
-/// T2, where a tool larger than T1 fits and may be had; else T1.
-std::string choose_tool(WheelWork& work) {
-  if (work.job.most_tools < 2) return "T1";
-  double width = 1e300, height = 0.0;
-  for (const SectorChannel& channel : work.sector.channels)
-    width = std::min(width, channel_width(floor_channel(work, channel), work.tool->radial));
-  for (const WheelBlade& blade : work.sector.blades) height = std::max(height, blade.height_mm);
-  const double radius = std::floor(kWidthShare * width * 20.0) / 20.0;
-  if (radius < kSmallestGain * work.tool->radial.at(0.0).r) return "T1";
-  Tool tool;
-  tool.name = fmt::format("roughing cone, tip {:.2f} mm, {} degrees", radius, kTaperDeg);
-  tool.radial = RadialFunction(ToolFamily::kCone, height + radius, Eigen::Vector2d(radius, kTaperDeg * M_PI / 180.0));
-  work.rough_tool = tool;
-  write_tool(tool, tool_file(work, "T2"));
-  return "T2";
-}
 
 /// From layer to layer, mm.
 double layer_depth(const WheelWork& work, const Tool& tool) {
@@ -65,15 +43,18 @@ double layer_depth(const WheelWork& work, const Tool& tool) {
 
 /// All layers of all channels of a sector, a channel after the other.
 Path rough_path(WheelWork& work, const Tool& tool) {
-  const double keep = kAllowanceMm + (work.equal() ? 0.0 : work.difference_mm);
-  PointOptions options = work.point_options(work.roles.hub);
-  options.enter_share = -keep / work.job.tolerance_mm;
-  options.shank_mm = shank_radius(tool);
-  ClearingRequest request{.keep_mm = keep,
+  const PointOptions options = rough_options(work, tool);
+  ClearingRequest request{.keep_mm = rough_allowance(work),
                           .most_engagement_rad = work.job.most_engagement_deg * std::numbers::pi / 180.0,
                           .layer_mm = layer_depth(work, tool),
                           .face = face_list(work.roles.hub),
                           .outline = work.blank.outline};
+  const double off = kGuardShare * kRoughAllowanceMm + (work.equal() ? 0.0 : work.difference_mm),
+               chord = kChordShare * kRoughAllowanceMm;
+  request.guard = [&](const Path& around) -> MotionTest {
+    const auto guard = std::make_shared<const PathGuard>(work, around, tool, -off - chord);
+    return [guard](const Pose& from, const Pose& to) { return guard->is_free(from, to); };
+  };
   std::vector<FloorChannel> channels;
   for (const SectorChannel& one : work.sector.channels) channels.push_back(floor_channel(work, one));
   for (const FloorChannel& channel : channels)
@@ -81,8 +62,8 @@ Path rough_path(WheelWork& work, const Tool& tool) {
   Path out;
   for (const FloorChannel& channel : channels)
     for (const Strip& strip : clear_channel(channel, tool.radial, options, request))
-      out.strips.push_back(thinned(strip, tool.radial.axis_length(), kChordShare * kAllowanceMm));
-  return guarded(work, out, tool, -kGuardShare * kAllowanceMm - (work.equal() ? 0.0 : work.difference_mm), Turns::kAny);
+      out.strips.push_back(thinned(strip, tool.radial.axis_length(), chord));
+  return guarded(work, out, tool, -off, Turns::kAny);
 }
 
 /// Planning takes minutes: what was found lies in a folder of its own, and is taken from there where the same is asked again.
@@ -147,7 +128,7 @@ std::vector<WheelOperation> rough_operations(WheelWork& work) {
                                   : "no tool: none was found for the sides of the blades";
     return {operation};
   }
-  operation.tool = choose_tool(work);
+  operation.tool = choose_rough_tool(work);
   operation.copies = work.sector.copies;
   const Tool tool = operation.tool == "T2" ? *work.rough_tool : *work.tool;
   std::string decides = tool_to_json(tool) + fmt::format("{} {} {} {} {}", work.job.tolerance_mm, work.difference_mm,

@@ -28,7 +28,10 @@ ChannelLayer channel(double lead) {
       rows.back().push_back({Vec3(x + lead * (share - 0.5), kHalf * (2.0 * share - 1.0), 0.0), Vec3::UnitZ()});
     }
   }
-  return {rows, true, true, loop_length(Cutter(RadialFunction(ToolFamily::kCylinder, 6.0, Eigen::VectorXd::Ones(1))))};
+  return ChannelLayer::stretches(
+             rows, true, true,
+             loop_length(Cutter(RadialFunction(ToolFamily::kCylinder, 6.0, Eigen::VectorXd::Ones(1)))))
+      .front();
 }
 
 struct Cleared {

@@ -8,10 +8,12 @@
 #include "flank/wheel/rough/blank_section.h"
 #include "flank/wheel/rough/channel_section.h"
 #include "flank/wheel/rough/cycles.h"
+#include "flank/wheel/rough/side_passes.h"
 
 namespace flank::internal {
 namespace {
 
+constexpr int kLevels = 3;            ///< of a layer: along the sides the tool goes at each
 constexpr double kCellShare = 0.2;    ///< of it, of the planner's stock
 constexpr double kMostCells = 8e6;    ///< of that
 constexpr double kSpareShare = 0.95;  ///< of the engagement that is allowed: the stock is a grid
@@ -19,16 +21,16 @@ constexpr double kSpareShare = 0.95;  ///< of the engagement that is allowed: th
 /// The stretches of a layer.
 using Layer = std::vector<ChannelLayer>;
 
-/// The lowest first.
-std::vector<Layer> layers_over(const FloorChannel& channel, const RadialFunction& radial, const PointOptions& options,
+/// Of all levels, the lowest first.
+std::vector<Layer> levels_over(const FloorChannel& channel, const RadialFunction& radial, const PointOptions& options,
                                const ClearingRequest& request, const Cutter& cutter) {
   const ChannelLines lines(channel);
-  const int count = layer_count(channel, request.outline, request.layer_mm);
+  const int count = kLevels * layer_count(channel, request.outline, request.layer_mm);
   std::vector<Layer> out;
   std::optional<AxisField> below;
-  for (int layer = 0; layer < count; ++layer) {
+  for (int level = 0; level < count; ++level) {
     PointOptions here = options;
-    here.height_mm = request.keep_mm + layer * request.layer_mm;
+    here.height_mm = request.keep_mm + level * request.layer_mm / kLevels;
     const TipRoom room(channel, radial, here);
     const ChannelRows rows(channel, lines, room, here);
     out.emplace_back();
@@ -40,20 +42,27 @@ std::vector<Layer> layers_over(const FloorChannel& channel, const RadialFunction
   return out;
 }
 
+/// Every pose of all levels, in a strip of each line across.
+Path all_lines(const std::vector<Layer>& levels, const std::string& face) {
+  Path out;
+  for (const Layer& layer : levels)
+    for (const ChannelLayer& stretch : layer)
+      for (std::vector<Pose>& line : stretch.lines())
+        out.strips.push_back({.id = 1, .kind = "rough", .face = face, .poses = std::move(line)});
+  return out;
+}
+
 /// As much of the blank as the tool comes to on any layer; nothing where it comes to none.
-std::optional<StockGrid> stock_around(const std::vector<Layer>& layers, const BlankSection& section,
-                                      const Cutter& cutter) {
-  std::vector<Pose> all;
-  for (const Layer& layer : layers)
-    for (const ChannelLayer& stretch : layer) stretch.add_to(all);
+std::optional<StockGrid> stock_around(const Path& lines, const BlankSection& section, const Cutter& cutter) {
   Box3 box;
   const Vec3 around = Vec3::Constant(cutter.largest());
-  for (const Pose& pose : all)
-    for (const Cutter::Circle& circle : cutter.circles()) {
-      const Vec3 p = pose.at(circle.s);
-      if (section.depth(p) < -cutter.largest()) continue;
-      box.add(p - around), box.add(p + around);
-    }
+  for (const Strip& line : lines.strips)
+    for (const Pose& pose : line.poses)
+      for (const Cutter::Circle& circle : cutter.circles()) {
+        const Vec3 p = pose.at(circle.s);
+        if (section.depth(p) < -cutter.largest()) continue;
+        box.add(p - around), box.add(p + around);
+      }
   if (box.empty()) return {};
   const double cell = std::max(kCellShare * cutter.tip(), std::cbrt((box.high - box.low).prod() / kMostCells));
   return StockGrid(box, cell, [&](const Vec3& p) { return section.depth(p); });
@@ -68,17 +77,26 @@ int layer_count(const FloorChannel& channel, const std::vector<Vec2>& outline, d
 std::vector<Strip> clear_channel(const FloorChannel& channel, const RadialFunction& radial, const PointOptions& options,
                                  const ClearingRequest& request) {
   const Cutter cutter(radial);
-  const std::vector<Layer> layers = layers_over(channel, radial, options, request, cutter);
-  std::optional<StockGrid> stock = stock_around(layers, BlankSection(channel.axis, request.outline), cutter);
+  const std::vector<Layer> levels = levels_over(channel, radial, options, request, cutter);
+  const Path lines = all_lines(levels, request.face);
+  std::optional<StockGrid> stock = stock_around(lines, BlankSection(channel.axis, request.outline), cutter);
   if (!stock) return {};
-  const CycleLimits limits{.most_engagement_rad = kSpareShare * request.most_engagement_rad};
+  const CycleLimits limits{.most_engagement_rad = kSpareShare * request.most_engagement_rad,
+                           .is_free = request.guard(lines)};
   std::vector<Strip> out;
-  for (std::size_t k = layers.size(); k-- > 0;)
-    for (const ChannelLayer& stretch : layers[k])
-      for (Strip& strip : layer_cycles(stretch, cutter, limits, request.face, *stock)) {
-        strip.layer = request.layers - static_cast<int>(k);
+  const auto clear = [&](std::size_t level, const auto& passes) {
+    for (const ChannelLayer& stretch : levels[level])
+      for (Strip& strip : passes(stretch, cutter, limits, request.face, *stock)) {
+        strip.layer = request.layers - static_cast<int>(level) / kLevels;
         out.push_back(std::move(strip));
       }
+  };
+  // A layer is cleared first: what its flank has left at the sides above is taken after that.
+  for (std::size_t lowest = levels.size(); lowest > 0;) {
+    lowest -= kLevels;
+    clear(lowest, layer_cycles);
+    for (std::size_t level = lowest + kLevels; --level > lowest;) clear(level, side_passes);
+  }
   return out;
 }
 

@@ -1,11 +1,13 @@
 /// A channel of a wheel cleared by trochoidal cycles, layer by layer.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "flank/path.h"
 #include "flank/wheel/point/channel.h"
+#include "flank/wheel/rough/cycles.h"
 
 namespace flank::internal {
 
@@ -16,6 +18,8 @@ struct ClearingRequest {
   int layers = 1;             ///< of the highest channel of all: its highest layer is 1
   std::string face;           ///< that the strips name
   std::vector<Vec2> outline;  ///< of the blank: along the wheel's axis and radius, mm
+  /// Of a tool that goes nowhere but near some strips, what it may do.
+  std::function<MotionTest(const Path& around)> guard = {};
 };
 
 /// How many layers there are over a channel's floor: the highest one is above the outline of the blank.

@@ -13,9 +13,11 @@ namespace {
 
 constexpr double kBendShare = 1.5;   ///< of the tip's radius, that a front half bends by at its ends at least
 constexpr double kOverShare = 4.0;   ///< of it, by which a layer goes on where it is open
+constexpr double kJumpShare = 2.0;   ///< of it, from loop to loop, beyond which another strip begins
 constexpr double kBackShare = 0.4;   ///< of that, by which the back half bows behind
 constexpr double kApartShare = 0.3;  ///< of the tip's radius, between poses
-constexpr int kFewest = 8;           ///< poses of a half
+constexpr double kStillMm = 1e-9;
+constexpr int kFewest = 8;                       ///< poses of a half
 constexpr double kLonger = 1.3, kShorter = 0.7;  ///< than the last one a step is tried
 constexpr double kPlannedShare = 0.85;           ///< of the engagement that is allowed, by which steps are chosen
 constexpr double kNarrowShare = 0.1;             ///< of the tip's radius, by which a loop gives way to one side
@@ -51,7 +53,7 @@ class Clearing {
       if (!loop) low_ = 0.0, high_ = 1.0;
       place += loop ? step : most, idle += loop ? step : kIdleShare * r;
       if (loop && cuts(*loop))
-        add(loop->poses, strip), idle = 0.0;
+        add(loop->poses, strip, out), idle = 0.0;
       else if (idle >= kIdleShare * r)
         end(strip, out);
       widen(place, step);
@@ -68,8 +70,28 @@ class Clearing {
   [[nodiscard]] bool cuts(const Loop& loop) const {
     return std::any_of(loop.poses.begin(), loop.poses.end(), [&](const Pose& p) { return stock_.meets(cutter_, p); });
   }
-  void add(const std::vector<Pose>& loop, Strip& strip) {
+  /// How far a place of the tool moves, mm, at most.
+  [[nodiscard]] double moved(const Pose& from, const Pose& to) const {
+    const Vec3 tip = to.tip - from.tip, axis = to.axis - from.axis;
+    return std::max(tip.norm(), (tip + cutter_.length() * axis).norm());
+  }
+  /// From the end of the last loop, where that is near: in steps as those of a loop.
+  void go_on(const Strip& strip, Loop& loop) const {
+    if (strip.poses.empty()) return;
+    const Pose from = strip.poses.back(), to = loop.poses.front();
+    const double far = moved(from, to);
+    if (far > kJumpShare * cutter_.tip()) return;
+    const int steps = std::max(1, static_cast<int>(std::ceil(far / (kApartShare * cutter_.tip()))));
+    for (int k = steps; k-- > 0;) {
+      const double t = static_cast<double>(k) / steps;
+      loop.poses.insert(loop.poses.begin(),
+                        {from.tip + t * (to.tip - from.tip), (from.axis + t * (to.axis - from.axis)).normalized()});
+      loop.shares.insert(loop.shares.begin(), loop.shares.front());
+    }
+  }
+  void add(const std::vector<Pose>& loop, Strip& strip, std::vector<Strip>& out) {
     stock_.cut(cutter_, loop);
+    if (!strip.poses.empty() && moved(strip.poses.back(), loop.front()) > kStillMm) end(strip, out);
     strip.poses.insert(strip.poses.end(), loop.begin() + (strip.poses.empty() ? 0 : 1), loop.end());
   }
   /// The next loop, with as long a step as its engagement allows; where none is short enough it is not as wide. None where a narrow one
@@ -78,14 +100,13 @@ class Clearing {
     const double least = limits_.least_step_share * cutter_.tip();
     while (high_ - low_ > kNarrowestShare) {
       Loop loop = loop_at(place + step);
-      // From loop to loop the tool goes on.
-      if (!strip.poses.empty()) {
-        loop.poses.insert(loop.poses.begin(), strip.poses.back());
-        loop.shares.insert(loop.shares.begin(), loop.shares.front());
-      }
-      const auto [in, at] = engagement(loop);
-      if (in <= kPlannedShare * limits_.most_engagement_rad) return loop;
-      if (step > least)
+      go_on(strip, loop);
+      const auto [in, most] = engagement(loop);
+      const bool engages = in > kPlannedShare * limits_.most_engagement_rad;
+      const std::optional<double> blocked = engages ? std::nullopt : blocked_at(loop);
+      if (!engages && !blocked) return loop;
+      const double at = blocked.value_or(most);
+      if (engages && step > least)
         step = std::max(least, kShorter * step);
       else if (at < 0.5 * (low_ + high_))
         low_ += kNarrowShare * share_of(place);
@@ -125,6 +146,16 @@ class Clearing {
                  [&](std::size_t k) { all[k + 1] = stock_.engagement(cutter_, loop.poses[k], loop.poses[k + 1]); });
     const auto most = std::max_element(all.begin(), all.end());
     return {*most, loop.shares[static_cast<std::size_t>(most - all.begin())]};
+  }
+
+  /// At which share across, first, the tool may not go on.
+  [[nodiscard]] std::optional<double> blocked_at(const Loop& loop) const {
+    std::vector<char> free(loop.poses.size(), 1);
+    parallel_for(free.size() - 1,
+                 [&](std::size_t k) { free[k + 1] = limits_.is_free(loop.poses[k], loop.poses[k + 1]) ? 1 : 0; });
+    const auto first = std::find(free.begin(), free.end(), 0);
+    if (first == free.end()) return {};
+    return loop.shares[static_cast<std::size_t>(first - free.begin())];
   }
 
   const ChannelLayer& layer_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "flank/base/parallel.h"
+#include "flank/wheel/rough/lean.h"
 
 namespace flank::internal {
 namespace {
@@ -15,6 +16,7 @@ constexpr int kHalvings = 5;         ///< of the search for the outermost ones
 constexpr double kLineMm = 0.5;      ///< between lines square across
 constexpr double kOffShare = 0.8;    ///< of the width, from the middle to a place of a line
 constexpr double kGapShare = 0.2;    ///< of it, between places of a line
+constexpr double kEndShare = 0.3;    ///< of the width, that an end may move by from line to line
 constexpr int kAround = 3;           ///< rows, by which the way of the channel is known
 constexpr std::size_t kBridged = 2;  ///< rows without room, over which a stretch goes on
 
@@ -112,19 +114,29 @@ struct Net {
     beyond(0, kAround, before), beyond(rows.size() - 1, rows.size() - 1 - kAround, behind);
     return out;
   }
-  /// The longest run of columns that cross a plane, evenly; empty: fewer than two do.
+  /// Of the columns that cross a plane, evenly, the run that comes nearest to the plane's point; empty: fewer than two do.
   [[nodiscard]] Row line(const Vec3& point, const Vec3& normal) const {
-    Row run, longest;
+    Row run, nearest;
+    double off = 1e300, least = 1e300;
+    const auto take = [&] {
+      if (run.size() > 1 && off < least) least = off, nearest = run;
+      run.clear(), off = 1e300;
+    };
     for (std::size_t c = 0; c < rows.front().size(); ++c) {
       const std::optional<Pose> pose = crossing(c, point, normal);
-      if (!pose || (!run.empty() && (pose->tip - run.back().tip).norm() > kGapShare * wide)) run.clear();
+      if (!pose || (!run.empty() && (pose->tip - run.back().tip).norm() > kGapShare * wide)) take();
       if (!pose) continue;
-      run.push_back(*pose);
-      if (run.size() > longest.size()) longest = run;
+      run.push_back(*pose), off = std::min(off, (pose->tip - point).squaredNorm());
     }
-    return longest.size() > 1 ? longest : Row();
+    take();
+    return nearest;
   }
 };
+
+/// Whether one end of a line is another place than that of the line before.
+bool jumps(const Row& before, const Row& line, double most) {
+  return (line.front().tip - before.front().tip).norm() > most || (line.back().tip - before.back().tip).norm() > most;
+}
 
 /// The middle of a stretch, even, and on beyond its ends as far as any column has not ended, and a way more where that is asked.
 struct MiddleLine {
@@ -158,18 +170,25 @@ struct MiddleLine {
 
 }  // namespace
 
-ChannelLayer::ChannelLayer(const std::vector<Row>& rows, bool open_before, bool open_behind, double over_mm)
-    : open_before_(open_before), open_behind_(open_behind) {
+std::vector<ChannelLayer> ChannelLayer::stretches(const std::vector<Row>& rows, bool open_before, bool open_behind,
+                                                  double over_mm) {
   const Net net{rows, open_before ? over_mm : 0.0, open_behind ? over_mm : 0.0};
   const MiddleLine middle(rows, net.before, net.behind);
   std::vector<Row> found(middle.points.size());
   parallel_for(found.size(), [&](std::size_t k) { found[k] = net.line(middle.points[k], middle.ways[k]); });
-  // Beyond the ends of all columns there is nothing.
-  const auto is_there = [](const Row& row) { return !row.empty(); };
-  const auto first = std::find_if(found.begin(), found.end(), is_there),
-             last = std::find_if_not(first, found.end(), is_there);
-  for (auto row = first; row != last; ++row)
-    lines_.push_back({kLineMm * static_cast<double>(row - first), (row->back().tip - row->front().tip).norm(), *row});
+  std::vector<ChannelLayer> out;
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    if (found[k].empty()) continue;
+    if (k == 0 || found[k - 1].empty() || jumps(found[k - 1], found[k], kEndShare * net.wide)) out.emplace_back();
+    std::vector<Line>& lines = out.back().lines_;
+    lines.push_back(
+        {kLineMm * static_cast<double>(lines.size()), (found[k].back().tip - found[k].front().tip).norm(), found[k]});
+  }
+  if (out.empty()) return out;
+  out.front().open_before_ = open_before, out.back().open_behind_ = open_behind;
+  out.erase(std::remove_if(out.begin(), out.end(), [](const ChannelLayer& one) { return one.lines_.size() < 2; }),
+            out.end());
+  return out;
 }
 
 std::pair<std::size_t, double> ChannelLayer::place(double along) const {
@@ -196,23 +215,25 @@ bool ChannelLayer::climbs_from_first() const {
   return across.cross(on).dot(at(middle, 0.5).axis) < 0.0;
 }
 
-void ChannelLayer::add_to(std::vector<Pose>& all) const {
-  for (const Line& line : lines_) all.insert(all.end(), line.poses.begin(), line.poses.end());
+std::vector<Row> ChannelLayer::lines() const {
+  std::vector<Row> out;
+  for (const Line& line : lines_) out.push_back(line.poses);
+  return out;
 }
 
 std::vector<ChannelLayer> layers_of(const ChannelPoses& poses, double over_mm) {
   std::vector<Row> rows(poses.rows().size());
   parallel_for(rows.size(), [&](std::size_t k) { rows[k] = row_of(poses, k); });
+  lean_to_sides(rows, poses.room());
   std::vector<ChannelLayer> out;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     std::vector<Row> run;
     std::size_t end = k;
     for (std::size_t n = k; n < rows.size() && n <= end + kBridged; ++n)
       if (!rows[n].empty()) run.push_back(rows[n]), end = n + 1;
-    if (run.size() > 2 * kAround) {
-      const ChannelLayer layer(run, k == 0, end == rows.size(), over_mm);
-      if (layer.length() > 0.0) out.push_back(layer);
-    }
+    if (run.size() > 2 * kAround)
+      for (ChannelLayer& one : ChannelLayer::stretches(run, k == 0, end == rows.size(), over_mm))
+        out.push_back(std::move(one));
     k = std::max(k, end);
   }
   return out;

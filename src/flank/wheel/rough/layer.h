@@ -16,8 +16,10 @@ class ChannelLayer {
  public:
   /// Poses from the first side to the second, evenly; a row of the channel, which goes round the wheel and lies aslant where it winds.
   using Row = std::vector<Pose>;
-  /// `rows`: three at least, of the same number of poses. `over_mm`: so far it goes on where it is open.
-  ChannelLayer(const std::vector<Row>& rows, bool open_before, bool open_behind, double over_mm);
+  /// `rows`: seven at least, of the same number of poses. `over_mm`: so far it goes on where it is open. Several, where an end of the lines
+  /// square across jumps.
+  [[nodiscard]] static std::vector<ChannelLayer> stretches(const std::vector<Row>& rows, bool open_before,
+                                                           bool open_behind, double over_mm);
   [[nodiscard]] double length() const { return lines_.empty() ? 0.0 : lines_.back().along; }
   [[nodiscard]] bool open_before() const { return open_before_; }
   [[nodiscard]] bool open_behind() const { return open_behind_; }
@@ -26,7 +28,8 @@ class ChannelLayer {
   [[nodiscard]] Pose at(double along, double share) const;
   /// Whether a tool that turns right, seen from above, climb mills what lies ahead while it goes from the first side to the second.
   [[nodiscard]] bool climbs_from_first() const;
-  void add_to(std::vector<Pose>& all) const;
+  /// Square across, one after the other.
+  [[nodiscard]] std::vector<Row> lines() const;
 
  private:
   struct Line {
@@ -35,7 +38,7 @@ class ChannelLayer {
   };
   /// The line before a way, and how far it is to the next one: 0 to 1.
   [[nodiscard]] std::pair<std::size_t, double> place(double along) const;
-  bool open_before_, open_behind_;
+  bool open_before_ = false, open_behind_ = false;
   std::vector<Line> lines_;  ///< evenly along the middle
 };
 
