@@ -50,8 +50,8 @@ fi
 [[ ${#folders[@]} -gt 0 ]] || mapfile -t folders < <(by_change)
 at=0
 while [[ $at -lt ${#folders[@]} && $SECONDS -lt $limit ]]; do
-  check "${folders[@]:$at:2}"
-  at=$((at + 2))
+  check "${folders[@]:$at:1}"
+  at=$((at + 1))
 done
 if [[ $at -lt ${#folders[@]} ]]; then
   echo "sanitize.sh: $limit s are over; not looked at by $variant: ${folders[*]:$at}"

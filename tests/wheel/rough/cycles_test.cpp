@@ -39,14 +39,16 @@ struct Cleared {
   ProgramStock judged;
 };
 
-Cleared cleared(const ChannelLayer& layer) {
+Cleared cleared(
+    const ChannelLayer& layer, const MotionTest& is_free = [](const Pose&, const Pose&) { return true; }) {
   const RadialFunction radial(ToolFamily::kCylinder, 6.0, Eigen::VectorXd::Ones(1));
   const Cutter cutter(radial);
   Box3 box;
   box.add(Vec3(-8.0, -6.0, -2.0)), box.add(Vec3(kLength + 8.0, 6.0, 3.0));
   StockGrid stock(box, 0.2, [](const Vec3& p) { return std::min({p.x(), kLength - p.x(), kTop - p.z()}); });
   Cleared out;
-  out.strips = layer_cycles(layer, cutter, {.most_engagement_rad = kMostDeg * std::numbers::pi / 180.0}, "F1", stock);
+  out.strips = layer_cycles(
+      layer, cutter, {.most_engagement_rad = kMostDeg * std::numbers::pi / 180.0, .is_free = is_free}, "F1", stock);
   Tool tool;
   tool.radial = radial;
   Path path;
@@ -90,6 +92,42 @@ TEST(LayerCycles, ClimbFromTheSideOnWhichTheyBegin) {
     }
   }
   EXPECT_GT(right, 4.0 * left);
+}
+
+/// A loop that may not go to a place is narrower, and what follows knows that it was.
+TEST(LayerCycles, KeepOffWhereTheToolMayNotGo) {
+  const auto is_free = [](const Pose& a, const Pose& b) {
+    const auto outside = [](const Vec3& p) { return p.y() < 2.0 || std::abs(p.x() - 0.5 * kLength) > 0.2 * kLength; };
+    return outside(a.tip) && outside(b.tip);
+  };
+  const Cleared found = cleared(channel(0.0), is_free);
+  const StockReport& report = found.judged.report;
+  ASSERT_EQ(report.kinds.size(), 1u);
+  EXPECT_LE(report.kinds[0].engagement_deg, kMostDeg + report.resolution_deg);
+  double farthest = -kHalf;
+  for (const Strip& strip : found.strips)
+    for (std::size_t k = 0; k + 1 < strip.poses.size(); ++k) {
+      EXPECT_TRUE(is_free(strip.poses[k], strip.poses[k + 1]));
+      farthest = std::max(farthest, strip.poses[k].tip.y());
+    }
+  EXPECT_GT(farthest, kHalf - 0.1) << "before and behind it loops are as wide as the channel";
+}
+
+/// A line that is another place than the one before begins another stretch: a loop would run across from the one to the other.
+TEST(ChannelLayer, EndsWhereItsLinesJump) {
+  std::vector<ChannelLayer::Row> rows;
+  for (double x = 0.0; x <= 20.0; x += 0.5) {
+    rows.emplace_back();
+    const double first = x < 10.0 ? 0.0 : 6.0;
+    for (int c = 0; c <= 16; ++c)
+      rows.back().push_back({Vec3(x, std::lerp(first, 14.0, c / 16.0), 0.0), Vec3::UnitZ()});
+  }
+  const std::vector<ChannelLayer> found = ChannelLayer::stretches(rows, true, true, 2.0);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_TRUE(found[0].open_before() && found[1].open_behind());
+  EXPECT_FALSE(found[0].open_behind() || found[1].open_before());
+  EXPECT_NEAR(found[0].width(0.5 * found[0].length()), 14.0, 0.1);
+  EXPECT_NEAR(found[1].width(0.5 * found[1].length()), 8.0, 0.1);
 }
 
 TEST(ChannelLayer, LinesLieSquareAcrossWhereRowsDoNot) {
