@@ -19,7 +19,7 @@ constexpr double kApartShare = 0.3;  ///< of the tip's radius, between poses
 constexpr double kStillMm = 1e-9;
 constexpr int kFewest = 8;                       ///< poses of a half
 constexpr double kLonger = 1.3, kShorter = 0.7;  ///< than the last one a step is tried
-constexpr double kPlannedShare = 0.85;           ///< of the engagement that is allowed, by which steps are chosen
+constexpr double kPlannedShare = 0.8;            ///< of the engagement that is allowed, by which steps are chosen
 constexpr double kNarrowShare = 0.1;             ///< of the tip's radius, by which a loop gives way to one side
 constexpr double kWidenShare = 0.25;     ///< of a step, by which the next loop is wider: at its ends it bends sharply
 constexpr double kNarrowestShare = 0.3;  ///< of the channel's width
@@ -27,6 +27,7 @@ constexpr double kIdleShare = 1.0;  ///< of the tip's radius, from the last loop
 
 /// Closed: a front half that cuts, then a back half.
 struct Loop {
+  bool cuts = false;
   std::vector<Pose> poses;
   std::vector<double> shares;  ///< of each pose, across the channel
 };
@@ -52,7 +53,7 @@ class Clearing {
       all = all && loop && low_ == 0.0 && high_ == 1.0;
       if (!loop) low_ = 0.0, high_ = 1.0;
       place += loop ? step : most, idle += loop ? step : kIdleShare * r;
-      if (loop && cuts(*loop))
+      if (loop && loop->cuts)
         add(loop->poses, strip, out), idle = 0.0;
       else if (idle >= kIdleShare * r)
         end(strip, out);
@@ -103,7 +104,8 @@ class Clearing {
       go_on(strip, loop);
       const auto [in, most] = engagement(loop);
       const bool engages = in > kPlannedShare * limits_.most_engagement_rad;
-      const std::optional<double> blocked = engages ? std::nullopt : blocked_at(loop);
+      loop.cuts = !engages && cuts(loop);
+      const std::optional<double> blocked = loop.cuts ? blocked_at(loop) : std::nullopt;
       if (!engages && !blocked) return loop;
       const double at = blocked.value_or(most);
       if (engages && step > least)

@@ -13,7 +13,7 @@ namespace {
 constexpr double kMostRad = 0.5, kStepRad = 0.1;  ///< of an axis at an end, and of the search for it
 constexpr int kHalvings = 3;                      ///< of that
 constexpr double kPerRow = 0.03;                  ///< radians that the turn may change by from row to row
-constexpr int kRounds = 20;                       ///< in which neighbours become alike
+constexpr int kRounds = 6;                        ///< in which neighbours become alike
 constexpr int kAround = 3;                        ///< rows, by which the way of the channel is known
 
 /// How far the axes at the first and the last place turn, radians, and about what.
