@@ -156,10 +156,21 @@ export function simulate(folder, text, machine, offset = [0, 0, 0], limit = 250,
   return logged(folder, machine);
 }
 
+const PIECE = 2 ** 26;  // bytes: a log of some hours is longer than a string may be
+
 /** What lies in the folder of a run that has ended, as simulate() returns it. */
 export function logged(folder, machine) {
-  const rows = readFileSync(join(folder, 'joints.log'), 'utf8').trim().split('\n').map((l) => l.trim().split(/\s+/).map(Number)), count = machine.joints.length;
-  return { ...JSON.parse(readFileSync(join(folder, 'result.json'), 'utf8')), joints: rows.map((row) => row.slice(0, count)), tools: rows.map((row) => row[count]) };
+  const log = readFileSync(join(folder, 'joints.log')), count = machine.joints.length, joints = [], tools = [];
+  for (let from = 0; from < log.length;) {
+    const end = log.lastIndexOf('\n', Math.min(from + PIECE, log.length)), to = end > from ? end : log.length;
+    for (const line of log.toString('utf8', from, to).split('\n')) {
+      if (!line.trim()) continue;
+      const row = line.trim().split(/\s+/).map(Number);
+      joints.push(row.slice(0, count)), tools.push(row[count]);
+    }
+    from = to + 1;
+  }
+  return { ...JSON.parse(readFileSync(join(folder, 'result.json'), 'utf8')), joints, tools };
 }
 
 const LOGGED = 1e-3;  // mm and degrees: digits of the log

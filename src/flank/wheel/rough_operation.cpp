@@ -29,16 +29,18 @@
 namespace flank::internal {
 namespace {
 
-constexpr double kChordShare = 0.05;    ///< of what is left, by which the path may leave the places that have room
-constexpr double kGuardShare = 0.3;     ///< of what is left, by which it is proved to keep off
-constexpr double kLayerShare = 3.0;     ///< of the tip's radius, from layer to layer, at most
+constexpr double kChordShare = 0.05;  ///< of what is left, by which the path may leave the places that have room
+constexpr double kGuardShare = 0.3;   ///< of what is left, by which it is proved to keep off
+constexpr double kLayerShare = 3.0;   ///< of the tip's radius, from layer to layer, at most
+constexpr double kFreeShare =
+    0.95;  ///< of how far a blade may stand free, that the layers take: their floor is not quite the hub's
 constexpr int kMostLayers = 1'000'000;  ///< of one operation, where blades may stand free as far as they like
 constexpr const char* kId = "10";
 
 /// From layer to layer, mm.
 double layer_depth(const WheelWork& work, const Tool& tool) {
   const double depth = kLayerShare * tool.radial.at(0.0).r, free = most_free_mm(work.job, work.roles);
-  return free > 0.0 ? std::min(depth, free) : depth;
+  return free > 0.0 ? std::min(depth, kFreeShare * free) : depth;
 }
 
 /// All layers of all channels of a sector, a channel after the other.

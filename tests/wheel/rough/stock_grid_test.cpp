@@ -51,6 +51,22 @@ TEST(StockGrid, EngagesAsTheDepthInAWallSays) {
   }
 }
 
+/// A cone that goes down has material in front of it all round; one that is drawn up, less than half.
+TEST(StockGrid, EngagesAllRoundWhereAConeGoesDown) {
+  const Cutter cutter(cone(1.0, 12.0, 4.0));
+  Box3 box;
+  box.add(Vec3(-8.0, -8.0, -8.0)), box.add(Vec3(8.0, 8.0, 12.0));
+  const StockGrid stock(box, 0.4, [](const Vec3&) { return 1.0; });
+  const Pose from{Vec3::Zero(), Vec3::UnitZ()};
+  const auto engaged = [&](const Vec3& way) { return stock.engagement(cutter, from, {way, from.axis}); };
+  const double lean = std::tan(12.0 * kDegree);
+  EXPECT_NEAR(engaged(Vec3(0.3, 0.0, 0.0)), std::numbers::pi, 1e-9);
+  EXPECT_NEAR(engaged(Vec3(0.1, 0.0, -0.3)), 2.0 * std::acos(-3.0 * lean), 1e-6);
+  EXPECT_NEAR(engaged(Vec3(0.1, 0.0, 0.3)), 2.0 * std::acos(3.0 * lean), 1e-6);
+  EXPECT_NEAR(engaged(Vec3(0.0, 0.0, -0.3)), 2.0 * std::numbers::pi, 1e-9);
+  EXPECT_EQ(engaged(Vec3(0.0, 0.0, 0.3)), 0.0);
+}
+
 TEST(StockGrid, MeetsNothingWhereItWasCut) {
   Wall wall;
   EXPECT_FALSE(wall.stock.meets(wall.cutter, Wall::at(0.0, -0.1)));

@@ -19,7 +19,7 @@ constexpr double kApartShare = 0.3;  ///< of the tip's radius, between poses
 constexpr double kStillMm = 1e-9;
 constexpr int kFewest = 8;                       ///< poses of a half
 constexpr double kLonger = 1.3, kShorter = 0.7;  ///< than the last one a step is tried
-constexpr double kPlannedShare = 0.8;            ///< of the engagement that is allowed, by which steps are chosen
+constexpr double kPlannedShare = 0.85;           ///< of the engagement that is allowed, by which steps are chosen
 constexpr double kNarrowShare = 0.1;             ///< of the tip's radius, by which a loop gives way to one side
 constexpr double kWidenShare = 0.25;     ///< of a step, by which the next loop is wider: at its ends it bends sharply
 constexpr double kNarrowestShare = 0.3;  ///< of the channel's width

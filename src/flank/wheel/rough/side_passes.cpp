@@ -12,7 +12,7 @@ namespace {
 constexpr double kApartShare = 0.3;     ///< of the tip's radius, between poses
 constexpr double kIdleShare = 4.0;      ///< of it, that a pass goes on through air
 constexpr double kShortestShare = 2.0;  ///< of it: a shorter pass is not worth a link
-constexpr double kPlannedShare = 0.8;   ///< of the engagement that is allowed
+constexpr double kPlannedShare = 0.85;  ///< of the engagement that is allowed
 
 /// From one end of the layer to the other, at a share across.
 std::vector<Pose> line_of(const ChannelLayer& layer, double share, bool forward, double apart) {

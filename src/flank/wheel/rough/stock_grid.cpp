@@ -10,23 +10,18 @@ namespace flank::internal {
 namespace {
 
 constexpr double kFarCells = 2.0;
-constexpr int kSteps = 20;  ///< of half of a circle
+constexpr int kSteps = 24;  ///< of what is in front of a circle
 constexpr double kStillMm = 1e-9;
 
 /// std::lerp sees to infinities, too.
 double between(double a, double b, double t) { return a + t * (b - a); }
 
-/// Cosine and sine from a quarter of a turn to the right of ahead to one to the left.
-const std::array<Vec2, kSteps + 1>& half_circle() {
-  static const auto all = [] {
-    std::array<Vec2, kSteps + 1> out;
-    for (int k = 0; k <= kSteps; ++k) {
-      const double angle = (static_cast<double>(k) / kSteps - 0.5) * std::numbers::pi;
-      out[static_cast<std::size_t>(k)] = {std::cos(angle), std::sin(angle)};
-    }
-    return out;
-  }();
-  return all;
+/// How far to either side of ahead a circle goes into what is there, radians, from 0 to pi: a cone that goes down is in front all round. The normal of
+/// the flank there and the way say it.
+double front_half(const Cutter::Circle& circle, double across, double down) {
+  const double lean = (circle.s - circle.middle) / circle.radius, rise = lean * down;
+  if (across < kStillMm) return rise > kStillMm ? std::numbers::pi : 0.0;
+  return std::acos(std::clamp(-rise / across, -1.0, 1.0));
 }
 
 }  // namespace
@@ -213,26 +208,31 @@ bool StockGrid::is_air(const Vec3& middle, double radius) const {
 
 double StockGrid::engagement(const Cutter& cutter, const Pose& from, const Pose& to) const {
   double most = 0.0;
-  for (const Cutter::Circle& circle : cutter.circles()) {
-    if (is_air(to.at(circle.middle), circle.radius)) continue;
-    Vec3 ahead = to.at(circle.s) - from.at(circle.s);
-    ahead -= ahead.dot(to.axis) * to.axis;
-    if (ahead.norm() < kStillMm) continue;
-    ahead.normalize();
-    const Vec3 middle = to.at(circle.middle), aside = circle.radius * to.axis.cross(ahead);
-    ahead *= circle.radius;
-    constexpr double kStep = std::numbers::pi / kSteps;
-    double in = 0.0, last = -1.0;
-    for (const Vec2& way : half_circle()) {
-      const double here = depth(middle + way.x() * ahead + way.y() * aside);
-      if (&way != half_circle().data() && (last > 0.0 || here > 0.0))
-        in += last > 0.0 && here > 0.0 ? kStep
-                                       : kStep * std::max(last, here) / (std::max(last, here) - std::min(last, here));
-      last = here;
-    }
-    most = std::max(most, in);
-  }
+  for (const Cutter::Circle& circle : cutter.circles())
+    if (!is_air(to.at(circle.middle), circle.radius))
+      most = std::max(most, in_material(circle, to, to.at(circle.s) - from.at(circle.s)));
   return most;
+}
+
+double StockGrid::in_material(const Cutter::Circle& circle, const Pose& pose, const Vec3& way) const {
+  const double down = -way.dot(pose.axis);
+  const Vec3 across = way + down * pose.axis;
+  const double half = front_half(circle, across.norm(), down), step = 2.0 * half / kSteps;
+  if (!(half > 0.0)) return 0.0;
+  const Vec3 ahead = across.norm() < kStillMm ? Vec3(pose.axis.unitOrthogonal()) : Vec3(across.normalized()),
+             aside = pose.axis.cross(ahead), middle = pose.at(circle.middle);
+  const Vec2 turn(std::cos(step), std::sin(step));
+  Vec2 at(std::cos(half), -std::sin(half));
+  double in = 0.0, last = 0.0;
+  for (int k = 0; k <= kSteps; ++k) {
+    const double here = depth(middle + circle.radius * (at.x() * ahead + at.y() * aside));
+    if (k > 0 && (last > 0.0 || here > 0.0))
+      in +=
+          last > 0.0 && here > 0.0 ? step : step * std::max(last, here) / (std::max(last, here) - std::min(last, here));
+    last = here;
+    at = {turn.x() * at.x() - turn.y() * at.y(), turn.y() * at.x() + turn.x() * at.y()};
+  }
+  return in;
 }
 
 }  // namespace flank::internal

@@ -23,8 +23,8 @@ class StockGrid {
   void cut(const Cutter& cutter, const std::vector<Pose>& poses);
   /// Whether the tool, its tip sphere too, is in the material at all.
   [[nodiscard]] bool meets(const Cutter& cutter, const Pose& pose) const;
-  /// The largest of the circles of the flank on the way from one pose to the next, at the second one, radians: as much of the half that goes ahead
-  /// as is in the material.
+  /// The largest of the circles of the flank on the way from one pose to the next, at the second one, radians: as much of what goes ahead as is in the
+  /// material.
   [[nodiscard]] double engagement(const Cutter& cutter, const Pose& from, const Pose& to) const;
 
  private:
@@ -45,6 +45,8 @@ class StockGrid {
   };
   void touched(const Cutter& cutter, const Motion& motion, std::size_t number, std::vector<Touch>& out) const;
   void cut(const Cutter& cutter, const std::vector<Motion>& motions, const Touch* first, const Touch* last);
+  /// Of one circle that goes a way.
+  [[nodiscard]] double in_material(const Cutter::Circle& circle, const Pose& pose, const Vec3& way) const;
   [[nodiscard]] double depth(const Vec3& p) const;
   /// Whether all is air in a box around a place, as far as a radius.
   [[nodiscard]] bool is_air(const Vec3& middle, double radius) const;
