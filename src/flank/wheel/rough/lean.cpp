@@ -10,6 +10,8 @@
 namespace flank::internal {
 namespace {
 
+using Row = ChannelLayer::Row;
+
 constexpr double kMostRad = 0.5, kStepRad = 0.1;  ///< of an axis at an end, and of the search for it
 constexpr int kHalvings = 3;                      ///< of that
 constexpr double kPerRow = 0.03;                  ///< radians that the turn may change by from row to row
@@ -22,7 +24,7 @@ struct Lean {
   Vec3 way = Vec3::Zero();
 };
 
-const Pose& end_of(const RoughRow& row, std::size_t side) { return side == 0 ? row.front() : row.back(); }
+const Pose& end_of(const Row& row, std::size_t side) { return side == 0 ? row.front() : row.back(); }
 
 /// Towards the first side for `side` 0, the last one for 1.
 Pose turned(const Pose& pose, const Vec3& way, double angle) {
@@ -30,8 +32,8 @@ Pose turned(const Pose& pose, const Vec3& way, double angle) {
 }
 
 /// Along the channel; so that a turn by a positive angle leads towards the last side.
-Vec3 way_of(const std::vector<RoughRow>& rows, std::size_t k) {
-  const auto middle = [](const RoughRow& row) { return row[row.size() / 2].tip; };
+Vec3 way_of(const std::vector<Row>& rows, std::size_t k) {
+  const auto middle = [](const Row& row) { return row[row.size() / 2].tip; };
   std::size_t first = k, last = k;
   for (int n = 0; n < kAround; ++n) {
     if (first > 0 && !rows[first - 1].empty()) --first;
@@ -56,7 +58,7 @@ double most_turn(const Pose& pose, const Vec3& way, double sign, const TipRoom& 
 }
 
 /// No row turns more than its neighbours by more than they may change: each comes down to what the others allow.
-void even_out(std::vector<Lean>& leans, const std::vector<RoughRow>& rows) {
+void even_out(std::vector<Lean>& leans, const std::vector<Row>& rows) {
   for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
     const auto limit = [&](std::size_t at, std::size_t from) {
       if (!rows[at].empty() && !rows[from].empty())
@@ -68,7 +70,7 @@ void even_out(std::vector<Lean>& leans, const std::vector<RoughRow>& rows) {
 }
 
 /// The mean of an axis and of those beside it: at the ends of a row, of the rows beside alone.
-Vec3 mean_axis(const std::vector<RoughRow>& rows, std::size_t k, std::size_t c) {
+Vec3 mean_axis(const std::vector<Row>& rows, std::size_t k, std::size_t c) {
   Vec3 sum = 2.0 * rows[k][c].axis;
   const auto add = [&](std::size_t row, std::size_t column) {
     if (row < rows.size() && !rows[row].empty()) sum += rows[row][column].axis;
@@ -79,7 +81,7 @@ Vec3 mean_axis(const std::vector<RoughRow>& rows, std::size_t k, std::size_t c) 
 }
 
 /// Of two colours, as on a chess board: what is turned at once has no common sides.
-void steady(std::vector<RoughRow>& rows, const TipRoom& room) {
+void steady(std::vector<Row>& rows, const TipRoom& room) {
   for (int round = 0; round < kRounds; ++round)
     for (const std::size_t colour : {std::size_t{0}, std::size_t{1}})
       parallel_for(rows.size(), [&](std::size_t k) {
@@ -92,7 +94,7 @@ void steady(std::vector<RoughRow>& rows, const TipRoom& room) {
 
 }  // namespace
 
-void lean_to_sides(std::vector<RoughRow>& rows, const TipRoom& room) {
+void lean_to_sides(std::vector<Row>& rows, const TipRoom& room) {
   if (rows.empty()) return;
   std::vector<Lean> leans(rows.size());
   parallel_for(rows.size(), [&](std::size_t k) {
