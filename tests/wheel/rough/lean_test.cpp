@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <memory>
+#include <vector>
 
 #include "flank/geom/tessellate.h"
 #include "verify/faces.h"
@@ -36,8 +37,8 @@ struct Side {
 };
 
 /// Places from y = 0 to beside the side, upright.
-std::vector<ChannelLayer::Row> upright() {
-  std::vector<ChannelLayer::Row> rows;
+std::vector<std::vector<Pose>> upright() {
+  std::vector<std::vector<Pose>> rows;
   for (double x = 4.0; x <= kLength - 4.0; x += 0.5) {
     rows.emplace_back();
     for (int c = 0; c <= 16; ++c) rows.back().push_back({Vec3(x, c / 16.0 * (kAway - kTip - 0.1), 0.0), Vec3::UnitZ()});
@@ -51,9 +52,9 @@ TEST(Lean, TheFlankComesToASideThatLeansAway) {
   constexpr double kLean = 0.25;
   const Side side(kLean);
   const TipRoom room(side.channel, side.radial, side.options);
-  std::vector<ChannelLayer::Row> rows = upright();
+  std::vector<std::vector<Pose>> rows = upright();
   lean_to_sides(rows, room);
-  for (const ChannelLayer::Row& row : rows) {
+  for (const std::vector<Pose>& row : rows) {
     EXPECT_NEAR(lean_of(row.back()), kLean, 0.05) << row.back().tip.x();
     EXPECT_NEAR(lean_of(row.front()), 0.0, 0.02) << "no side is there";
     for (std::size_t c = 1; c < row.size(); ++c) {
@@ -67,9 +68,9 @@ TEST(Lean, TheFlankComesToASideThatLeansAway) {
 TEST(Lean, AnUprightSideLeavesAxesUpright) {
   const Side side(0.0);
   const TipRoom room(side.channel, side.radial, side.options);
-  std::vector<ChannelLayer::Row> rows = upright();
+  std::vector<std::vector<Pose>> rows = upright();
   lean_to_sides(rows, room);
-  for (const ChannelLayer::Row& row : rows)
+  for (const std::vector<Pose>& row : rows)
     for (const Pose& pose : row) EXPECT_NEAR(lean_of(pose), 0.0, 0.03);
 }
 

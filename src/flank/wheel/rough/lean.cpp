@@ -10,7 +10,7 @@
 namespace flank::internal {
 namespace {
 
-using Row = ChannelLayer::Row;
+using Row = std::vector<Pose>;
 
 constexpr double kMostRad = 0.5, kStepRad = 0.1;  ///< of an axis at an end, and of the search for it
 constexpr int kHalvings = 3;                      ///< of that
