@@ -18,8 +18,8 @@ struct ClearingRequest {
   int layers = 1;             ///< of the highest channel of all: its highest layer is 1
   std::string face;           ///< that the strips name
   std::vector<Vec2> outline;  ///< of the blank: along the wheel's axis and radius, mm
-  /// Of a tool that goes nowhere but near some strips, what it may do.
-  std::function<MotionTest(const Path& around)> guard = {};
+  /// Of a tool that goes nowhere but near some strips, what it may do. It is asked once, before the first motion.
+  std::function<MotionTest(const Path& around)> guard = [](const Path&) { return CycleLimits().is_free; };
 };
 
 /// How many layers there are over a channel's floor: the highest one is above the outline of the blank.
