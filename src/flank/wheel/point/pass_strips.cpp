@@ -9,7 +9,6 @@
 namespace flank::internal {
 namespace {
 
-constexpr double kShortestMm = 1.0;  ///< strips that are shorter are not worth a link
 constexpr std::size_t kFewestPoses = 3;
 constexpr double kStillMm = 1e-9;
 constexpr int kTurnRounds = 120;     ///< in which axes are turned
@@ -19,7 +18,7 @@ constexpr std::size_t kAround = 10;  ///< poses to either side of a turn, whose 
 void cut_at_turns(Strip strip, const RadialFunction& radial, const PointOptions& options, std::vector<Strip>& pieces) {
   double length = 0.0;
   for (std::size_t k = 1; k < strip.poses.size(); ++k) length += (strip.poses[k].tip - strip.poses[k - 1].tip).norm();
-  if (strip.poses.size() < kFewestPoses || length < kShortestMm) return;
+  if (strip.poses.size() < kFewestPoses || length < kShortestStripMm) return;
   const Turning turn = sharpest_turn(strip.poses, radial.axis_length(), options.turn_window_mm);
   if (turn.angle_rad <= options.most_turn_rad) {
     pieces.push_back(std::move(strip));

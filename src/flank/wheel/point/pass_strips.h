@@ -15,6 +15,8 @@ namespace flank::internal {
 /// A pass, place by place along the channel; absent where it must not run or need not.
 using PoseRow = std::vector<std::optional<Pose>>;
 
+constexpr double kShortestStripMm = 1.0;  ///< strips that are shorter are not worth a link
+
 /// The strip; in pieces where it turns too sharply, none of which begins where another one ends. Pieces that are not worth a link are left
 /// out.
 void add_strip(Strip strip, const RadialFunction& radial, const PointOptions& options, std::vector<Strip>& out);

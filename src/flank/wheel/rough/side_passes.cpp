@@ -5,13 +5,13 @@
 #include <utility>
 
 #include "flank/base/parallel.h"
+#include "flank/wheel/point/pass_strips.h"
 
 namespace flank::internal {
 namespace {
 
 constexpr double kApartShare = 0.3;     ///< of the tip's radius, between poses
 constexpr double kIdleShare = 4.0;      ///< of it, that a pass goes on through air
-constexpr double kShortestShare = 2.0;  ///< of it: a shorter pass is not worth a link
 constexpr double kPlannedShare = 0.85;  ///< of the engagement that is allowed
 
 /// From one end of the layer to the other, at a share across.
@@ -61,7 +61,7 @@ std::vector<Strip> side_passes(const ChannelLayer& layer, const Cutter& cutter, 
         runs.emplace_back(k, k), open = true;
     }
     for (const auto& [from, to] : runs) {
-      if (static_cast<double>(to - from) < kShortestShare / kApartShare) continue;
+      if ((line[to].tip - line[from].tip).norm() < kShortestStripMm || to - from < 2) continue;
       Strip strip{.id = 1, .kind = "rough", .face = face, .poses = {}};
       strip.poses.assign(line.begin() + static_cast<std::ptrdiff_t>(from),
                          line.begin() + static_cast<std::ptrdiff_t>(to) + 1);
