@@ -50,7 +50,7 @@ fi
 [[ ${#folders[@]} -gt 0 ]] || mapfile -t folders < <(by_change)
 at=0
 while [[ $at -lt ${#folders[@]} && $SECONDS -lt $limit ]]; do
-  check "${folders[@]:$at:1}"
+  check "${folders[$at]}"
   at=$((at + 1))
 done
 if [[ $at -lt ${#folders[@]} ]]; then

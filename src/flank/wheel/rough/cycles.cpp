@@ -11,15 +11,13 @@
 namespace flank::internal {
 namespace {
 
-constexpr double kBendShare = 1.5;   ///< of the tip's radius, that a front half bends by at its ends at least
-constexpr double kOverShare = 4.0;   ///< of it, by which a layer goes on where it is open
-constexpr double kJumpShare = 2.0;   ///< of it, from loop to loop, beyond which another strip begins
-constexpr double kBackShare = 0.4;   ///< of that, by which the back half bows behind
-constexpr double kApartShare = 0.3;  ///< of the tip's radius, between poses
+constexpr double kBendShare = 1.5;  ///< of the tip's radius, that a front half bends by at its ends at least
+constexpr double kOverShare = 4.0;  ///< of it, by which a layer goes on where it is open
+constexpr double kJumpShare = 2.0;  ///< of it, from loop to loop, beyond which another strip begins
+constexpr double kBackShare = 0.4;  ///< of that, by which the back half bows behind
 constexpr double kStillMm = 1e-9;
 constexpr int kFewest = 8;                       ///< poses of a half
 constexpr double kLonger = 1.3, kShorter = 0.7;  ///< than the last one a step is tried
-constexpr double kPlannedShare = 0.85;           ///< of the engagement that is allowed, by which steps are chosen
 constexpr double kNarrowShare = 0.1;             ///< of the tip's radius, by which a loop gives way to one side
 constexpr double kWidenShare = 0.25;     ///< of a step, by which the next loop is wider: at its ends it bends sharply
 constexpr double kNarrowestShare = 0.3;  ///< of the channel's width
@@ -82,13 +80,11 @@ class Clearing {
     const Pose from = strip.poses.back(), to = loop.poses.front();
     const double far = moved(from, to);
     if (far > kJumpShare * cutter_.tip()) return;
-    const int steps = std::max(1, static_cast<int>(std::ceil(far / (kApartShare * cutter_.tip()))));
-    for (int k = steps; k-- > 0;) {
-      const double t = static_cast<double>(k) / steps;
-      loop.poses.insert(loop.poses.begin(),
-                        {from.tip + t * (to.tip - from.tip), (from.axis + t * (to.axis - from.axis)).normalized()});
-      loop.shares.insert(loop.shares.begin(), loop.shares.front());
-    }
+    const int steps = std::max(1, static_cast<int>(std::ceil(far / (limits_.apart_share * cutter_.tip()))));
+    std::vector<Pose> way;
+    for (int k = 0; k < steps; ++k) way.push_back(pose_between(from, to, static_cast<double>(k) / steps));
+    loop.shares.insert(loop.shares.begin(), way.size(), loop.shares.front());
+    loop.poses.insert(loop.poses.begin(), way.begin(), way.end());
   }
   void add(const std::vector<Pose>& loop, Strip& strip, std::vector<Strip>& out) {
     stock_.cut(cutter_, loop);
@@ -103,7 +99,7 @@ class Clearing {
       Loop loop = loop_at(place + step);
       go_on(strip, loop);
       const auto [in, most] = engagement(loop);
-      const bool engages = in > kPlannedShare * limits_.most_engagement_rad;
+      const bool engages = in > limits_.planned_share * limits_.most_engagement_rad;
       loop.cuts = !engages && cuts(loop);
       const std::optional<double> blocked = loop.cuts ? blocked_at(loop) : std::nullopt;
       if (!engages && !blocked) return loop;
@@ -129,7 +125,7 @@ class Clearing {
   [[nodiscard]] Loop loop_at(double place) const {
     const double r = cutter_.tip(), width = (high_ - low_) * layer_.width(on(place)),
                  deep = std::min(0.5 * width, std::sqrt(0.5 * width * kBendShare * r)), back = kBackShare * deep;
-    const int count = std::max(kFewest, static_cast<int>(std::ceil((width + deep) / (kApartShare * r))));
+    const int count = std::max(kFewest, static_cast<int>(std::ceil((width + deep) / (limits_.apart_share * r))));
     Loop out;
     for (const bool front : {true, false})
       for (int k = front ? 0 : 1; k <= count - (front ? 0 : 1); ++k) {

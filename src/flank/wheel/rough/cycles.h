@@ -17,6 +17,8 @@ using MotionTest = std::function<bool(const Pose& from, const Pose& to)>;
 struct CycleLimits {
   double most_engagement_rad = 1.0;
   MotionTest is_free = [](const Pose&, const Pose&) { return true; };
+  double planned_share = 0.85;                            ///< of the engagement, that motions are chosen by
+  double apart_share = 0.3;                               ///< of the tip's radius, between poses
   double most_step_share = 0.6, least_step_share = 0.03;  ///< of the tip's radius, from cycle to cycle
 };
 

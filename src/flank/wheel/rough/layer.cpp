@@ -7,6 +7,11 @@
 #include "flank/wheel/rough/lean.h"
 
 namespace flank::internal {
+
+Pose pose_between(const Pose& a, const Pose& b, double t) {
+  return {a.tip + t * (b.tip - a.tip), (a.axis + t * (b.axis - a.axis)).normalized()};
+}
+
 namespace {
 
 using Row = ChannelLayer::Row;
@@ -20,14 +25,10 @@ constexpr double kEndShare = 0.3;    ///< of the width, that an end may move by 
 constexpr int kAround = 3;           ///< rows, by which the way of the channel is known
 constexpr std::size_t kBridged = 2;  ///< rows without room, over which a stretch goes on
 
-Pose between(const Pose& a, const Pose& b, double t) {
-  return {a.tip + t * (b.tip - a.tip), (a.axis + t * (b.axis - a.axis)).normalized()};
-}
-
 Pose on_row(const Row& row, double share) {
   const double x = std::clamp(share, 0.0, 1.0) * static_cast<double>(row.size() - 1);
   const auto k = std::min(static_cast<std::size_t>(x), row.size() - 2);
-  return between(row[k], row[k + 1], x - static_cast<double>(k));
+  return pose_between(row[k], row[k + 1], x - static_cast<double>(k));
 }
 
 /// The share farthest from one that has room towards one that has none, by halving.
@@ -104,7 +105,7 @@ struct Net {
     };
     for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
       const double a = height(k), b = height(k + 1);
-      if (a <= 0.0 && b > 0.0) take(between(rows[k][column], rows[k + 1][column], a / (a - b)));
+      if (a <= 0.0 && b > 0.0) take(pose_between(rows[k][column], rows[k + 1][column], a / (a - b)));
     }
     const auto beyond = [&](std::size_t at, std::size_t inner, double most) {
       const Vec3 way = (rows[at][column].tip - rows[inner][column].tip).normalized();
@@ -204,7 +205,7 @@ double ChannelLayer::width(double along) const {
 
 Pose ChannelLayer::at(double along, double share) const {
   const auto [k, t] = place(along);
-  return between(on_row(lines_[k].poses, share), on_row(lines_[k + 1].poses, share), t);
+  return pose_between(on_row(lines_[k].poses, share), on_row(lines_[k + 1].poses, share), t);
 }
 
 bool ChannelLayer::climbs_from_first() const {

@@ -9,6 +9,9 @@
 
 namespace flank::internal {
 
+/// On the straight way from one pose to another, at a share of it.
+[[nodiscard]] Pose pose_between(const Pose& a, const Pose& b, double t);
+
 /// A stretch of a channel at one height, by two numbers: the way along its middle from 0 to `length`, mm, and the share across it from 0 to 1, between the
 /// outermost places that have room. Places of the same way lie square across the channel. Where it is open to the air it goes on straight
 /// beyond its end. Immutable.

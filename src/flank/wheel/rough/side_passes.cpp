@@ -10,9 +10,7 @@
 namespace flank::internal {
 namespace {
 
-constexpr double kApartShare = 0.3;     ///< of the tip's radius, between poses
-constexpr double kIdleShare = 4.0;      ///< of it, that a pass goes on through air
-constexpr double kPlannedShare = 0.85;  ///< of the engagement that is allowed
+constexpr double kIdleShare = 4.0;  ///< of it, that a pass goes on through air
 
 /// From one end of the layer to the other, at a share across.
 std::vector<Pose> line_of(const ChannelLayer& layer, double share, bool forward, double apart) {
@@ -34,7 +32,7 @@ std::vector<Meets> meets(const std::vector<Pose>& line, const Cutter& cutter, co
     if (!limits.is_free(from, to)) out[k] = Meets::kTooMuch;
     if (out[k] == Meets::kTooMuch || !stock.meets(cutter, to)) return;
     const double in = std::max(stock.engagement(cutter, from, to), stock.engagement(cutter, to, from));
-    out[k] = in > kPlannedShare * limits.most_engagement_rad ? Meets::kTooMuch : Meets::kMaterial;
+    out[k] = in > limits.planned_share * limits.most_engagement_rad ? Meets::kTooMuch : Meets::kMaterial;
   });
   return out;
 }
@@ -44,8 +42,8 @@ std::vector<Meets> meets(const std::vector<Pose>& line, const Cutter& cutter, co
 std::vector<Strip> side_passes(const ChannelLayer& layer, const Cutter& cutter, const CycleLimits& limits,
                                const std::string& face, StockGrid& stock) {
   std::vector<Strip> out;
-  const double apart = kApartShare * cutter.tip();
-  const auto most_idle = static_cast<std::size_t>(kIdleShare / kApartShare);
+  const double apart = limits.apart_share * cutter.tip();
+  const auto most_idle = static_cast<std::size_t>(kIdleShare / limits.apart_share);
   for (const bool first : {true, false}) {
     const std::vector<Pose> line = line_of(layer, first ? 0.0 : 1.0, layer.climbs_from_first() == first, apart);
     const std::vector<Meets> all = meets(line, cutter, limits, stock);
