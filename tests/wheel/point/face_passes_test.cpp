@@ -170,10 +170,54 @@ TEST(FlankJoints, KeepPassesBesideOffWhatTheFlankHasLeft) {
     }
   EXPECT_GE(least, kTip + kLeft - 1e-9);
   EXPECT_GT(most_up, 0.3 * kLeft);
-  EXPECT_GT(joints.steps(1), 1U) << "chords between few poses would cut as well";
-  EXPECT_EQ(joints.steps(lines.lines() / 2), 1U);
+  EXPECT_GT(joints.stops(1).size(), 2 * lines.places()) << "chords between few poses would cut as well";
+  EXPECT_EQ(joints.stops(lines.lines() / 2).size(), lines.places());
   const double last = static_cast<double>(lines.places()) - 1.0;
   EXPECT_LT(joints.at(1, last, *lines.at(1, last)).moved.norm(), 1e-12) << "no flank has been there";
+}
+
+/// A flank goes straight from pose to pose: what it leaves is plane there, and turns at each pose. Poses of the pass beside it that are
+/// spread evenly would round that.
+TEST(FlankJoints, StopWhereTheFlankTurns) {
+  constexpr double kApart = 1.7, kTurn = 0.004, kRound = 0.05;  // mm, radians, and mm in which it turns
+  const Edge edge;
+  const auto lean = [](double z) {
+    const double at = z / kApart, whole = std::floor(at);
+    return kTurn * (whole + std::clamp((at - whole - 1.0) * kApart / kRound + 1.0, 0.0, 1.0) - 4.0);
+  };
+  const auto left = [&](const Vec3& x) -> std::optional<SurfaceLeft> {
+    return SurfaceLeft{0.0, (edge.target->closest(x).normal + lean(x.z()) * Vec3::UnitZ()).normalized()};
+  };
+  FloorChannel around;
+  around.walls = {edge.target.get()};
+  const PointOptions options;
+  const TipRoom room(around, edge.tool.radial, options);
+  const FaceLines lines(edge.face, kTip, 0.002, 0.5);
+  const FlankJoints joints(lines, room, left);
+  const std::vector<double> stops = joints.stops(0);
+  double most = 0.0;
+  for (std::size_t k = 0; k + 1 < stops.size(); ++k) {
+    ASSERT_LT(stops[k], stops[k + 1]);
+    const double a = lines.at(0, stops[k])->point.z(), b = lines.at(0, stops[k + 1])->point.z();
+    most = std::max(most, std::abs(lean(b) - lean(a)));
+  }
+  EXPECT_LT(most, 0.6 * kTurn) << "a turn is followed, and not passed over in one step";
+  EXPECT_LT(stops.size(), 2 * (8 * lines.places())) << "only where it turns";
+}
+
+/// What the flank has left has an edge: stops ever nearer to it would make a corner of the pass.
+TEST(FlankJoints, DoNotJumpAcrossAnEdge) {
+  const Edge edge;
+  const auto left = [&](const Vec3& x) -> std::optional<SurfaceLeft> {
+    const double lean = x.z() < 0.4 * kSpan ? 0.1 : -0.1;
+    return SurfaceLeft{0.0, (edge.target->closest(x).normal + lean * Vec3::UnitY()).normalized()};
+  };
+  FloorChannel around;
+  around.walls = {edge.target.get()};
+  const PointOptions options;
+  const TipRoom room(around, edge.tool.radial, options);
+  const FaceLines lines(edge.face, kTip, 0.002, 0.5);
+  EXPECT_EQ(FlankJoints(lines, room, left).stops(0).size(), 8 * (lines.places() - 1) + 1);
 }
 
 TEST(FaceLines, AreNearerToEachOtherWhereTheSphereIsSmaller) {

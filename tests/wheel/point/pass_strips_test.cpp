@@ -34,6 +34,26 @@ TEST(PassStrips, NoPieceBeginsWhereAnotherOneEnds) {
   EXPECT_GT(length, 0.7 * 15.5) << "only what is too short for a piece is left out";
 }
 
+/// A bend of a millimetre, in poses a hundredth of a millimetre apart: from any of them on it turns as sharply.
+TEST(PassStrips, ATurnOverSomeWayIsLeftOutAtOnce) {
+  const RadialFunction radial(ToolFamily::kCylinder, 8.0, Eigen::VectorXd::Constant(1, 1.5));
+  Strip strip{.id = 1, .kind = "edge", .face = "F1", .poses = {}};
+  Vec3 at = Vec3::Zero();
+  for (int k = 0; k < 1000; ++k) {
+    const double angle = 0.6 * std::clamp((k - 450) / 100.0, 0.0, 1.0);
+    at += 0.01 * Vec3(std::cos(angle), std::sin(angle), 0.0);
+    strip.poses.push_back({at, Vec3::UnitZ()});
+  }
+  PointOptions options;
+  std::vector<Strip> pieces;
+  add_strip(strip, radial, options, pieces);
+  ASSERT_EQ(pieces.size(), 2U);
+  for (const Strip& piece : pieces) {
+    EXPECT_LE(sharpest_turn(piece.poses, 8.0, options.turn_window_mm).angle_rad, options.most_turn_rad);
+    EXPECT_GT(piece.poses.size(), 430U);
+  }
+}
+
 /// Straight along x, each two places one mm apart, upright, with a kick of the axis in the middle.
 Strip kicked() {
   Strip strip{.id = 1, .kind = "edge", .face = "F1", .poses = {}};
@@ -52,7 +72,9 @@ TEST(PassStrips, AxesAreTurnedWhereTheyHaveRoom) {
   const FloorChannel nothing;
   Strip strip = kicked();
   ASSERT_GT(sharpest_turn(strip.poses, 8.0, options.turn_window_mm).angle_rad, 2.0 * options.most_turn_rad);
-  steady(strip, TipRoom(nothing, radial, options), radial, options);
+  const TipRoom room(nothing, radial, options);
+  steady(
+      strip, [&](std::size_t, const Pose& pose) { return room.is_free(pose); }, radial, options);
   EXPECT_LE(sharpest_turn(strip.poses, 8.0, options.turn_window_mm).angle_rad, options.most_turn_rad);
   for (std::size_t k = 0; k < strip.poses.size(); ++k) EXPECT_EQ(strip.poses[k].tip, kicked().poses[k].tip);
 }
@@ -64,7 +86,9 @@ TEST(PassStrips, AxesThatHaveNoRoomStay) {
   options.held = {.up = Vec3::UnitX(), .most_rad = 0.1};  // no axis of the strip is held
   const FloorChannel nothing;
   Strip strip = kicked();
-  steady(strip, TipRoom(nothing, radial, options), radial, options);
+  const TipRoom room(nothing, radial, options);
+  steady(
+      strip, [&](std::size_t, const Pose& pose) { return room.is_free(pose); }, radial, options);
   for (std::size_t k = 0; k < strip.poses.size(); ++k) EXPECT_EQ(strip.poses[k].axis, kicked().poses[k].axis);
 }
 

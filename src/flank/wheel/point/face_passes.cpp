@@ -9,19 +9,19 @@
 #include "flank/wheel/point/axis_field.h"
 #include "flank/wheel/point/face_lines.h"
 #include "flank/wheel/point/flank_joints.h"
+#include "flank/wheel/point/line_pass.h"
 #include "flank/wheel/point/pass_strips.h"
 #include "flank/wheel/point/tip_room.h"
 
 namespace flank::internal {
 namespace {
 
-constexpr double kStepMm = 0.5;       ///< between poses
-constexpr double kNetMm = 2.5;        ///< of the net of directions, along
-constexpr std::size_t kColumns = 18;  ///< and across, at most
+constexpr double kStepMm = 0.5;         ///< between poses
+constexpr double kNetMm = 2.5;          ///< of the net of directions, along
+constexpr std::size_t kColumns = 18;    ///< and across, at most
+constexpr double kSteadierShare = 0.6;  ///< of the turn that there may be, between places that stops lie between
 constexpr double kLinkMm =
     20.0;  ///< of a pass, that takes no longer than a link from its end to the next one's beginning
-constexpr double kLeastMm = 0.01;  ///< poses that are nearer to each other are one
-constexpr int kHalvings = 8;       ///< of the search for the end of a pass's room
 
 /// Of each line, its places that need a pass.
 using AskedPlaces = std::vector<std::vector<char>>;
@@ -35,18 +35,6 @@ struct Net {
         columns(static_cast<int>(std::clamp<std::size_t>(lines.lines(), 1, kColumns))),
         rows_apart((static_cast<double>(lines.places()) - 1.0) / (rows - 1.0)) {
     if (columns > 1) columns_apart = (static_cast<double>(lines.lines()) - 1.0) / (columns - 1.0);
-  }
-};
-
-struct Work {
-  const FaceLines& lines;
-  const TipRoom& room;
-  const AxisField& field;
-  const Net& net;
-  const FlankJoints& joints;
-  double most_turn_rad;  ///< of the axis from one pose to the next one
-  [[nodiscard]] bool goes_on(const Pose& a, const Pose& b) const {
-    return a.axis.dot(b.axis) > std::cos(most_turn_rad);
   }
 };
 
@@ -80,39 +68,6 @@ AxisField field_of(const FaceLines& lines, const TipRoom& room, const Net& net, 
   return {room, places, net.rows, net.columns};
 }
 
-/// A pose with room at a place; none beside the face, and where no direction has any. `beside`: a pose of the same pass, null: none.
-std::optional<Pose> pose_at(const Work& work, std::size_t line, double place, const Pose* beside) {
-  const std::optional<FaceLines::Place> here = work.lines.at(line, place);
-  if (!here) return {};
-  const FlankJoints::Shift joint = work.joints.at(line, place, *here);
-  const Vec3 tip = here->point + work.room.lift_mm() * here->normal + joint.moved;
-  if (!work.room.tip_is_free(tip, joint.deeper_mm)) return {};
-  const double row = place / work.net.rows_apart, column = static_cast<double>(line) / work.net.columns_apart;
-  const Pose smooth{tip, work.field.at(row, column)};
-  if (work.room.is_free(smooth, joint.deeper_mm)) return smooth;
-  for (const Vec3& axis : work.field.around(row, column))
-    if (const Pose pose{tip, axis}; work.room.is_free(pose, joint.deeper_mm)) return pose;
-  // A place smaller than the net's cells, as beside the foot of a post.
-  if (beside != nullptr)
-    if (const Pose pose{tip, beside->axis}; work.room.is_free(pose, joint.deeper_mm)) return pose;
-  const Vec3& wish = beside != nullptr ? beside->axis : smooth.axis;
-  const auto own = AxisField::nearest_free(work.room, {tip, here->normal, 0.0}, wish, joint.deeper_mm);
-  return own ? std::optional(Pose{tip, *own}) : std::nullopt;
-}
-
-/// The last pose with room, and no other axis, from a place that has it to one that has none.
-Pose last_with_room(const Work& work, std::size_t line, double good, double bad, Pose pose) {
-  for (int k = 0; k < kHalvings; ++k) {
-    const double middle = 0.5 * (good + bad);
-    const std::optional<Pose> there = pose_at(work, line, middle, &pose);
-    if (there && work.goes_on(pose, *there))
-      good = middle, pose = *there;
-    else
-      bad = middle;
-  }
-  return pose;
-}
-
 /// Places of a line that need a pass: what is not finished, a neighbour on either side, and what lies between two of them that a link
 /// would take longer to leave out.
 std::vector<char> needed(const FaceLines& lines, const FlankJoints& joints, const PointOptions& options,
@@ -131,29 +86,29 @@ std::vector<char> needed(const FaceLines& lines, const FlankJoints& joints, cons
   return out;
 }
 
-/// A pass ends where its room does, and where its axis would have to jump.
-PoseRow row_of(const Work& work, std::size_t line, const std::vector<char>& wanted) {
-  const std::size_t steps = work.joints.steps(line);
-  const double step = 1.0 / static_cast<double>(steps);
-  const auto asked = [&](std::size_t k) { return wanted[k / steps] != 0 && wanted[(k + steps - 1) / steps] != 0; };
-  PoseRow out;
-  std::optional<Pose> last;
-  const auto end_of = [&](const Pose& known, double good, double bad) {
-    const Pose end = last_with_room(work, line, good, bad, known);
-    if ((end.tip - known.tip).norm() > kLeastMm) out.emplace_back(end);
-  };
-  for (std::size_t k = 0; k < (wanted.size() - 1) * steps + 1; ++k) {
-    const double place = static_cast<double>(k) * step;
-    const std::optional<Pose> pose = asked(k) ? pose_at(work, line, place, last ? &*last : nullptr) : std::nullopt;
-    const bool goes_on = last && pose && work.goes_on(*last, *pose);
-    if (k > 0 && asked(k) && asked(k - 1) && !goes_on) {
-      if (last) end_of(*last, place - step, place);
-      if (last && pose) out.emplace_back();
-      if (pose) end_of(*pose, place, place - step);
+/// Each other line the other way round. Axes are made steady from place to place, and not from stop to stop, which may be as near as a
+/// micrometre.
+std::vector<Strip> strips_of(const LineWork& work, std::size_t line, const std::vector<char>& wanted,
+                             const Strip& empty, const RadialFunction& radial, const PointOptions& options) {
+  std::vector<Strip> out;
+  std::vector<LineStretch> stretches = line_stretches(work, line, wanted);
+  PointOptions steadier = options;
+  if (work.joints.stops(line).size() > wanted.size()) steadier.most_turn_rad *= kSteadierShare;
+  for (LineStretch& stretch : stretches) {
+    Strip strip = empty;
+    strip.poses.swap(stretch.poses);
+    const auto is_free = [&](std::size_t k, const Pose& turned) {
+      return has_room(work, line, stretch.places[k], turned);
+    };
+    steady(strip, is_free, radial, steadier);
+    stretch.poses.swap(strip.poses);
+    for (std::vector<Pose>& poses : with_stops(work, line, stretch)) {
+      strip.poses = std::move(poses);
+      if (line % 2 == 1) std::reverse(strip.poses.begin(), strip.poses.end());
+      add_strip(strip, radial, options, out);
     }
-    last = pose;
-    out.push_back(last);
   }
+  if (line % 2 == 1) std::reverse(out.begin(), out.end());
   return out;
 }
 
@@ -168,11 +123,14 @@ std::vector<Strip> face_passes(const Face& face, const FloorChannel& around, con
   parallel_for(wanted.size(), [&](std::size_t line) { wanted[line] = needed(lines, joints, options, line); });
   const Net net(lines);
   const AxisField field = field_of(lines, room, net, wanted);
-  const Work work{lines, room, field, net, joints, options.most_turn_rad};
-  std::vector<PoseRow> found(lines.lines());
-  parallel_for(found.size(), [&](std::size_t line) { found[line] = row_of(work, line, wanted[line]); });
+  const LineWork work{lines, room, field, net.rows_apart, net.columns_apart, joints, options.most_turn_rad};
+  const Strip empty{.id = 1, .kind = kind, .face = name, .poses = {}};
+  std::vector<std::vector<Strip>> found(lines.lines());
+  parallel_for(found.size(),
+               [&](std::size_t line) { found[line] = strips_of(work, line, wanted[line], empty, radial, options); });
   std::vector<Strip> out;
-  add_strips(std::move(found), room, radial, options, kind, name, out);
+  for (std::vector<Strip>& row : found)
+    for (Strip& strip : row) out.push_back(std::move(strip));
   return out;
 }
 

@@ -24,10 +24,12 @@ void cut_at_turns(Strip strip, const RadialFunction& radial, const PointOptions&
     pieces.push_back(std::move(strip));
     return;
   }
-  const auto cut = static_cast<std::ptrdiff_t>(std::clamp<std::size_t>(turn.pose, 1, strip.poses.size() - 2));
+  // At one pose, or where the turn begins and where it ends: what lies between would turn as sharply in any piece.
+  const std::size_t begin = std::clamp<std::size_t>(turn.from_pose + 1, 1, strip.poses.size() - 2),
+                    end = std::clamp<std::size_t>(turn.pose, begin, strip.poses.size() - 2);
   Strip rest = strip;
-  rest.poses.erase(rest.poses.begin(), rest.poses.begin() + cut);
-  strip.poses.erase(strip.poses.begin() + cut + 1, strip.poses.end());
+  rest.poses.erase(rest.poses.begin(), rest.poses.begin() + static_cast<std::ptrdiff_t>(end));
+  strip.poses.resize(begin + 1);
   cut_at_turns(std::move(strip), radial, options, pieces);
   cut_at_turns(std::move(rest), radial, options, pieces);
 }
@@ -44,7 +46,8 @@ void add_strip(Strip strip, const RadialFunction& radial, const PointOptions& op
   }
 }
 
-void steady(Strip& strip, const TipRoom& room, const RadialFunction& radial, const PointOptions& options) {
+void steady(Strip& strip, const std::function<bool(std::size_t, const Pose&)>& is_free, const RadialFunction& radial,
+            const PointOptions& options) {
   std::vector<Pose>& poses = strip.poses;
   if (poses.size() < kFewestPoses) return;
   for (int round = 0; round < kTurnRounds; ++round) {
@@ -60,7 +63,7 @@ void steady(Strip& strip, const TipRoom& room, const RadialFunction& radial, con
       // Places of a pass need not be even: the axis between its neighbours' is the one by the way.
       const Vec3 between = ((ahead * back.axis + behind * on.axis) / std::max(ahead + behind, kStillMm)).normalized();
       const Pose turned{before[k].tip, (before[k].axis + between).normalized()};
-      if (!room.is_free(turned)) continue;
+      if (!is_free(k, turned)) continue;
       poses[k] = turned;
       any = true;
     }
@@ -81,7 +84,8 @@ void add_strips(std::vector<PoseRow> rows, const TipRoom& room, const RadialFunc
         strip.poses.push_back(*pose);
         continue;
       }
-      steady(strip, room, radial, options);
+      steady(
+          strip, [&](std::size_t, const Pose& turned) { return room.is_free(turned); }, radial, options);
       add_strip(strip, radial, options, found[j]);
       strip.poses.clear();
     }

@@ -1,6 +1,8 @@
 /// Poses as strips that a machine can run.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,8 +23,10 @@ constexpr double kShortestStripMm = 1.0;  ///< strips that are shorter are not w
 /// out.
 void add_strip(Strip strip, const RadialFunction& radial, const PointOptions& options, std::vector<Strip>& out);
 
-/// Turns axes towards those of their neighbours where a strip turns too sharply, as far as they have room there.
-void steady(Strip& strip, const TipRoom& room, const RadialFunction& radial, const PointOptions& options);
+/// Turns axes towards those of their neighbours where a strip turns too sharply, as far as they have room there. `is_free`: whether a pose
+/// has, in place of the one with that number.
+void steady(Strip& strip, const std::function<bool(std::size_t, const Pose&)>& is_free, const RadialFunction& radial,
+            const PointOptions& options);
 
 /// Stretches of poses that are there, as strips, with steady axes; each other row the other way round.
 void add_strips(std::vector<PoseRow> rows, const TipRoom& room, const RadialFunction& radial,

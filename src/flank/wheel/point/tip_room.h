@@ -19,6 +19,8 @@ class TipRoom {
   [[nodiscard]] double tip_mm() const { return tip_mm_; }
   /// How far the sphere's centre is from what it touches: its radius, a little of the tolerance, and the height of a layer.
   [[nodiscard]] double lift_mm() const { return lift_mm_; }
+  /// How deep a pass may enter a wall; < 0: it keeps off so far.
+  [[nodiscard]] double enter_mm() const { return enter_mm_; }
   /// The centre of the tip sphere that stands on the floor at the place nearest to p, and the floor's normal there.
   struct Rest {
     Vec3 center, normal;
